@@ -1,4 +1,4 @@
-// A pt_context that throws Failure, with the library's errors in terms of options and scene files.
+// A pt_context that throws Failure, with errors in terms of options and scene files.
 #pragma once
 
 #include "cli/base/environment.h"
@@ -42,16 +42,15 @@ struct BrokenRule {
 
 std::string rule_text(const std::string &field, const BrokenRule &rule);
 
-// For example "spheres[3].center[0]".
 std::string field_text(const BrokenRule &rule);
 
-// For example "--size: width"; nullptr if no option sets the field.
+// Returns for example "--size: width"; nullptr if no option sets the field.
 const char *find_option(const BrokenRule &rule);
 
 struct LibraryError {
     std::string message;
     std::vector<BrokenRule> rules; // empty if the message concerns no field
-    std::uint64_t left_out = 0;    // number of broken rules beyond `rules`
+    std::uint64_t left_out = 0;    // broken rules beyond `rules`
 
     // Returns a line for each rule or, without rules, the message.
     std::string in_words(const std::function<std::string(const BrokenRule &)> &words) const;
@@ -60,7 +59,6 @@ struct LibraryError {
 // Empty if the rule has no subject.
 std::optional<BrokenRule> broken_rule(const pt_broken_rule &rule);
 
-// For example "--size: width = 0: must be >= 1".
 std::string in_words_of_options(const BrokenRule &rule);
 
 // Without a context, returns the thread's last error.
@@ -113,7 +111,6 @@ public:
         return error;
     }
 
-    // Floats have three components per pixel, object numbers one.
     template <typename Number>
     void read(std::uint32_t first, std::uint32_t count, std::uint32_t rows, std::uint32_t quantity,
               Number *values) const {
@@ -139,7 +136,6 @@ private:
                                                        : ""));
     }
 
-    // Blames the user's shaders like a scene file, and a missing compiler like a missing file.
     ExitCode code_of(pt_result result, const LibraryError &error) const {
         if (result == PT_ERROR_SHADER && !shader_dir_.empty())
             return ExitCode::scene;

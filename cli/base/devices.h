@@ -12,7 +12,6 @@ std::string kind_name(std::uint32_t kind);
 
 nlohmann::ordered_json device_json(const pt_device_info &device);
 
-// For example "7.7 GiB" or "480 B".
 std::string memory_text(std::uint64_t bytes);
 
 std::string version_text();

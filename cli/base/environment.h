@@ -4,7 +4,7 @@
 
 namespace cli {
 
-// Returns a folder that may not exist. Empty without a home directory.
+// Empty without a home directory. The folder may not exist.
 std::filesystem::path user_cache();
 
 // Asks llvmpipe for vectors of 512 bits, unless the user chose a width. No other thread may run.

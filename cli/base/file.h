@@ -1,5 +1,4 @@
-// Whole files. Outputs are written to a temporary file beside the target, which is then renamed. A lock marks temporary
-// files in use.
+// Atomic files: outputs are written beside their target, then renamed. A lock marks temporary files in use.
 #pragma once
 
 #include "cli/base/exit_code.h"
@@ -19,7 +18,6 @@ namespace cli {
 // attempt: number of names already taken.
 std::string temporary_name(int attempt);
 
-// Removes temporary files of killed programs.
 void remove_abandoned(const std::filesystem::path &folder);
 
 class AtomicFile {
@@ -33,7 +31,7 @@ public:
     void write(std::span<const std::byte> bytes);
     void commit();
 
-    // Checks like the constructor, but leaves no file.
+    // Leaves no file.
     static void check_writable(const std::string &path);
 
     // Follows symbolic links, because a rename would replace the link. Refuses another user's link in a sticky folder
@@ -51,7 +49,7 @@ private:
     platform::FileDescriptor file_;
 };
 
-// role: name of the option for the file, such as "--stats".
+// role: option for the file, such as "--stats".
 struct NamedFile {
     std::string role;
     std::string path; // empty: no file; "-": standard input or output
@@ -83,7 +81,6 @@ private:
 void check_report_file(const std::string &path);
 void write_report_file(const std::string &path, std::string_view text);
 
-// Prints to stderr if standard output is taken.
 void print_for_people(const std::string &lines, bool standard_output_is_taken);
 
 Failure unreadable(const std::string &path, const platform::InputError &error);
@@ -98,13 +95,13 @@ auto read_file(const std::string &path, Read read) {
     }
 }
 
-// "-" is standard input. May stop at a NUL byte. Throws Failure like read_file.
+// "-" is standard input. May stop at a NUL byte.
 std::string read_text(const std::string &path);
 
 // Removes a byte order mark. Throws Failure(ExitCode::scene) for a NUL byte.
 std::string_view require_text(std::string_view contents, const std::string &path);
 
-// Returns the position after this text, such as "3:14". Both numbers count from 1, columns in bytes.
+// Returns the position after this text, such as "3:14". Columns are bytes.
 std::string line_and_column(std::string_view before);
 
 } // namespace cli

@@ -5,8 +5,7 @@
 
 namespace cli {
 
-// Notes the first ending signal. A second one, at least a second later, ends the program at once, in case a driver
-// hangs.
+// A second ending signal, at least a second later, ends the program at once, in case a driver hangs.
 void catch_signals();
 
 // During its lifetime a signal ends the program at once.
@@ -23,7 +22,6 @@ int interrupt_signal();
 
 std::string interrupt_name();
 
-// Whether there was a request since the last forget_picture_request().
 bool has_picture_request();
 void forget_picture_request();
 

@@ -1,4 +1,3 @@
-// JSON: paths, rules for values (used by checks, messages and the JSON Schema), reports.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -39,7 +38,7 @@ std::optional<ParsedPath> parse_path(std::string_view text);
 
 bool is_within(const JsonPath &path, const JsonPath &outer);
 
-// A value's place as a chain to the root. Only messages need paths, and scenes may have millions of values.
+// A chain to the root. Only messages need paths, and scenes may have millions of values.
 struct JsonPlace {
     const JsonPlace *parent = nullptr;
     std::string_view key; // empty at the root and in arrays

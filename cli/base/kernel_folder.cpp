@@ -68,7 +68,7 @@ std::uint64_t KernelFolder::load(const std::string &key, std::span<std::byte> by
     std::ifstream stream(file, std::ios::binary);
     if (!stream.read(reinterpret_cast<char *>(bytes.data()), static_cast<std::streamsize>(size)))
         return 0;
-    fs::last_write_time(file, fs::file_time_type::clock::now(), error); // The time marks the file as used.
+    fs::last_write_time(file, fs::file_time_type::clock::now(), error); // marks the file as used
     return size;
 }
 

@@ -1,4 +1,4 @@
-// A cache of compiled kernels. Without write access the program compiles each time, without a message.
+// A cache of compiled kernels. If it cannot be written, the program compiles each time.
 #pragma once
 
 #include <pt/pt.h>
@@ -17,7 +17,7 @@ public:
     static constexpr std::size_t most_files = 32;
     static constexpr std::uint64_t most_bytes = std::uint64_t{64} << 20;
 
-    // An empty path means no cache. The folder need not exist.
+    // An empty path means no cache.
     explicit KernelFolder(std::filesystem::path path) : path_(std::move(path)) {}
 
     // Returns the size of the data. Fills bytes if they are large enough.

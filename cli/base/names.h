@@ -1,4 +1,3 @@
-// Values by names, and suggestions for misspelt ones.
 #pragma once
 
 #include <algorithm>
@@ -34,7 +33,6 @@ public:
         return found == names_.end() ? std::nullopt : std::optional(values_[std::size_t(found - names_.begin())]);
     }
 
-    // Throws std::out_of_range for an unknown value.
     constexpr std::string_view name(Value value) const {
         return names_.at(std::size_t(std::ranges::find(values_, value) - values_.begin()));
     }

@@ -1,4 +1,4 @@
-// Numbers in options. The whole text must be a number. There are no octal numbers.
+// Numbers in options. There are no octal numbers.
 #pragma once
 
 #include <algorithm>
@@ -35,7 +35,6 @@ inline std::string number_text(double number) {
     return {text.data(), end};
 }
 
-// Both "0.005" and "0.5%" are 0.005.
 inline std::optional<double> parse_share(std::string_view text) {
     const bool percent = text.ends_with('%');
     const auto number = parse_number<double>(percent ? text.substr(0, text.size() - 1) : text);

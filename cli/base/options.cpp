@@ -91,7 +91,6 @@ std::optional<std::string> unknown_argument(const CLI::App &command) {
                           : concat("unknown command \"", first, "\", did you mean \"pt ", reader, " ", first, "\"?");
 }
 
-// CLI11's message begins with the option's name.
 std::string mismatch_text(const CLI::App &command, const std::string &message) {
     const std::string name = message.substr(0, message.find(':'));
     const CLI::Option *option = command.get_option_no_throw(name);

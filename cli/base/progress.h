@@ -1,4 +1,3 @@
-// Progress of a rendering: a line on a terminal, JSON lines, or nothing.
 #pragma once
 
 #include <chrono>
@@ -13,7 +12,7 @@ namespace cli {
 
 enum class ProgressStyle { none, line, json };
 
-// Returns 80 if the width is unknown.
+// 80 if unknown.
 std::size_t terminal_columns();
 
 class Progress {
@@ -26,24 +25,22 @@ public:
     Progress &operator=(const Progress &) = delete;
     ~Progress() { erase_line(); }
 
-    // Begins a part of the work. begin, end: fractions of the whole work.
+    // begin, end: fractions of the whole work.
     void enter_part(double begin, double end) {
         part_begin_ = begin;
         part_end_ = end;
     }
 
-    // Shows the fraction on a terminal after a tenth of a second.
+    // Prints nothing during the first tenth of a second.
     void update_scene(double share, Clock::time_point now);
 
     // Prints at most ten times a second, and at the end. The percentage never falls.
     void update_samples(double samples_of_part, Clock::time_point now);
 
-    // Sets the total number of samples per pixel.
     void expect(std::uint64_t sample_count) { sample_count_ = sample_count; }
 
     void begin_at(std::uint64_t sample_count) { begun_ = static_cast<double>(sample_count); }
 
-    // Sets the latest end of the work, in seconds after the start.
     void limit_time(double seconds) { limit_seconds_ = seconds; }
 
     // Infinite if unknown.
@@ -68,7 +65,7 @@ private:
     std::uint64_t sample_count_;
     double part_begin_ = 0.0;
     double part_end_ = 1.0;
-    double fraction_ = 0.0; // largest fraction shown so far
+    double fraction_ = 0.0;
     double begun_ = 0.0;
     double limit_seconds_ = std::numeric_limits<double>::infinity();
     double relative_error_ = std::numeric_limits<double>::infinity();

@@ -1,4 +1,3 @@
-// Work in the background or on all processors.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +25,7 @@ public:
 
     bool is_begun() const { return future_.valid(); }
 
-    // Waits for the work, and rethrows its exception.
+    // Rethrows the work's exception.
     void finish() {
         if (future_.valid())
             future_.get();

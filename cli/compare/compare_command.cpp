@@ -1,4 +1,3 @@
-// `pt compare`: differences of two images, and whether they show the same light.
 #include "cli/base/enumerations.h"
 #include "cli/base/exit_code.h"
 #include "cli/base/file.h"
@@ -28,7 +27,7 @@ struct ImageDifference {
     double relative_mse; // mean of (x - r)^2 / (r^2 + 0.01)
 
     double maximum;
-    std::size_t maximum_value; // index of the value with the largest difference
+    std::size_t maximum_value; // index of this value
 
     std::size_t not_finite; // pixels that are not finite in some channel of either image
 };
@@ -76,7 +75,7 @@ struct CompareOptions {
     std::string layer; // empty: the main layer
     std::string json;
     std::string difference;
-    KernelTask kernels; // compares kernels instead of images if it has a shader_dir
+    KernelTask kernels; // used instead of images if it has a shader_dir
     LightRule rule;
     bool quiet = false;
 

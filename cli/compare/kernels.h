@@ -1,4 +1,3 @@
-// Compares an edited kernel with the library's. Renders until the test has a verdict.
 #pragma once
 
 #include "cli/compare/light.h"
@@ -18,7 +17,6 @@ struct KernelTask {
     LightRule rule;
 };
 
-// Receives the verdict of each look.
 using TellLook = std::function<void(std::uint32_t samples, const LightVerdict &verdict)>;
 
 // Looks after 16 samples and at each doubling, up to the scene's number or 65536. Throws Failure.

@@ -59,7 +59,7 @@ nlohmann::ordered_json region_json(const LightVerdict &verdict, const pt_compare
             {"smallest_change", number_or_null(region.smallest_change)}};
 }
 
-// The difference in standard deviations, in the channel with the largest one.
+// Returns the channel's difference in standard deviations that is largest.
 double signed_difference(const pt_compared_region &region) {
     double greatest = 0.0;
     for (std::size_t channel = 0; channel < 3; ++channel) {

@@ -42,7 +42,6 @@ struct LightVerdict {
 LightVerdict test_light(const TestedImage &first, const TestedImage &second, const LightRule &rule,
                         std::uint32_t look = 0);
 
-// Returns the verdict and the most different regions.
 std::string light_text(const LightVerdict &verdict);
 nlohmann::ordered_json light_json(const LightVerdict &verdict);
 

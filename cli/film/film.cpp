@@ -13,7 +13,6 @@
 namespace cli {
 namespace {
 
-// For calls that the user's input cannot break.
 void require(pt_result result) {
     if (result < 0)
         throw Failure(exit_code_of(result), pt_last_error(nullptr));
@@ -42,7 +41,6 @@ std::string film_words(const std::string &path, const LibraryError &error) {
     return error.in_words([&](const BrokenRule &rule) { return words_of(path, rule); });
 }
 
-// For calls with the user's film.
 void require_film(pt_result result, const std::string &path, const pt_context *context = nullptr) {
     if (result < 0)
         throw Failure(exit_code_of(result), film_words(path, last_error(context)));

@@ -1,4 +1,3 @@
-// Films that throw Failure.
 #pragma once
 
 #include "cli/base/context.h"
@@ -46,7 +45,6 @@ void save_film(const Context &context, std::vector<std::byte> &bytes);
 // Throws like merge().
 void add_film(const Context &context, const std::string &path, std::span<const std::byte> bytes);
 
-// Returns for example "[0, 64), [128, 256)", or "none".
 std::string ranges_text(const std::vector<pt_sample_range> &ranges);
 
 std::uint64_t sample_count_of(const std::vector<pt_sample_range> &ranges);

@@ -1,4 +1,3 @@
-// Image formats, and files for -o and --format.
 #pragma once
 
 #include "cli/image/image_module.h"
@@ -32,7 +31,6 @@ inline constexpr std::uint32_t largest_signed = 2'147'483'647;
 inline constexpr std::uint32_t libpng_limit = 1'000'000; // its default
 inline constexpr std::uint32_t libjpeg_limit = 65'500;   // JPEG_MAX_DIMENSION
 
-// Columns: name, is_radiance, has_alpha, needs_module, longest_side.
 inline constexpr std::array<ImageFormat, 4> image_formats{{
     {"exr", true, true, true, largest_signed},
     {"png", false, true, false, libpng_limit},
@@ -53,7 +51,6 @@ inline bool is_for_displays(const ImageFormat &format) {
     return !format.is_radiance;
 }
 
-// Returns for example ".exr, .png".
 std::string extensions(const std::function<bool(const ImageFormat &)> &holds, const char *between = ", ");
 
 std::optional<ImageFormat> format_of_name(std::string_view name);
@@ -66,8 +63,8 @@ struct ImageTarget {
     ImageFormat format;
 };
 
-// Throws Failure(ExitCode::usage) for an unknown format, standard output on a terminal, or a --format that does not fit
-// the paths.
+// Throws Failure(ExitCode::usage) for an unknown format, standard output on a terminal, or a --format that does not
+// fit.
 void check_image_names(std::span<const std::string> paths, std::optional<ImageFormat> format);
 
 ImageTarget image_target(const std::string &path, std::optional<ImageFormat> format);
@@ -75,7 +72,7 @@ ImageTarget image_target(const std::string &path, std::optional<ImageFormat> for
 // Throws Failure for an image too large for its format, or an unwritable file.
 void check_image_target(const ImageTarget &target, const ImageWindow &window);
 
-// The module is a separate package. Throws Failure(ExitCode::file) if it is missing.
+// Throws Failure(ExitCode::file) if the module, a separate package, is missing.
 std::filesystem::path module_path();
 
 // name: see image_module.h. The module stays loaded. Throws Failure(ExitCode::internal).
@@ -110,7 +107,6 @@ private:
     std::shared_future<EncodeImage *> encode_; // destroyed first, because the thread uses failed_
 };
 
-// Throws Failure.
 DecodedImage read_image(const std::string &path);
 
 } // namespace cli

@@ -83,7 +83,7 @@ void add_attributes(OIIO::ImageSpec &spec, std::span<const ImageAttribute> attri
             spec.attribute(name, static_cast<float>(std::get<double>(value)));
 }
 
-// Copies the channels of all layers side by side, bit by bit.
+// Copies the bits of all layers, channel by channel.
 void interleave_row(const ImageData &image, std::uint32_t y, std::span<std::uint32_t> row) {
     const std::size_t width = image.window.part.width;
     const std::size_t stride = row.size() / width;
@@ -114,7 +114,7 @@ bool write_layers(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec, const 
     return true;
 }
 
-// Encodes in memory, because OpenImageIO ignores errors when it closes a file, for example on a full disk.
+// Encodes in memory, because OpenImageIO ignores errors when it closes a file.
 std::vector<unsigned char> encode(const ImageData &image, const char *extension) {
     const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(std::string("image.") + extension);
     if (!output)

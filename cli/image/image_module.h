@@ -18,7 +18,7 @@
 
 namespace cli {
 
-// A rectangle of pixels; x and y count from the top left.
+// Pixels; x and y count from the top left.
 struct Rectangle {
     std::uint32_t x;
     std::uint32_t y;
@@ -30,7 +30,6 @@ struct Rectangle {
     std::size_t pixel_count() const { return std::size_t{width} * height; }
 };
 
-// Reads for example "10,20,640,480".
 inline std::optional<Rectangle> parse_rectangle(std::string_view text) {
     const auto numbers = parse_numbers<4>(text, ',');
     return numbers ? std::optional(Rectangle{(*numbers)[0], (*numbers)[1], (*numbers)[2], (*numbers)[3]})
@@ -51,7 +50,6 @@ inline ImageWindow whole_window(std::uint32_t width, std::uint32_t height) {
     return {{0, 0, width, height}, width, height};
 }
 
-// Returns for example "640x480 at 10,20 of 1920x1080".
 inline std::string window_text(const ImageWindow &window) {
     const auto size = [](std::uint32_t width, std::uint32_t height) {
         return std::to_string(width) + "x" + std::to_string(height);
@@ -65,7 +63,7 @@ inline std::string window_text(const ImageWindow &window) {
 
 struct ImageAttribute {
     std::string name;
-    std::variant<std::string, std::int32_t, double> value; // double: float32 in a file
+    std::variant<std::string, std::int32_t, double> value; // float32 in a file
 };
 
 inline std::string attribute_text(const ImageAttribute &attribute) {
@@ -77,7 +75,7 @@ inline std::string attribute_text(const ImageAttribute &attribute) {
 }
 
 enum class LayerKind {
-    color,  // R, G, B, or one channel
+    color,
     vector, // X, Y, Z
     numbers // one uint32
 };

@@ -1,4 +1,3 @@
-// Exposure, tone curve, display encoding and rounding.
 #pragma once
 
 #include "cli/base/names.h"
@@ -48,11 +47,10 @@ std::vector<std::uint8_t> map_to_bytes(std::span<const float> radiance, const To
 
 inline constexpr double largest_exposure = 64.0;
 
-// Returns the stops that bring the average to middle grey, 0.18: Reinhard, Stark, Shirley, Ferwerda 2002, eqs. 1 and 2,
-// the exponential of the mean logarithm. Differences: the mean of the channels replaces luminance, which would burn out
-// blue. Pixels below 1/128 of the level have less weight. The level is the mean after clipping to the mean three times,
-// so a small lamp does not set it. Rounded to hundredths, so that the printed number gives the same picture. 0 for
-// black.
+// Returns the stops that bring the average to middle grey, 0.18: Reinhard, Stark, Shirley, Ferwerda 2002, eqs. 1 and 2.
+// Differences: the mean of the channels replaces luminance, which would burn out blue. Pixels below 1/128 of the level
+// have less weight. The level is the mean after clipping to the mean three times, so a small lamp does not set it.
+// Rounded to hundredths, so that the printed number gives the same picture. 0 for black.
 double automatic_exposure(std::span<const float> radiance);
 
 struct Display {
@@ -67,7 +65,7 @@ struct Display {
 
 void add_tone_map(std::vector<ImageAttribute> &attributes, const ToneMap &tone_map);
 
-// Returns "exposure -3.13 EV (auto)" and a line end. Empty for a fixed exposure.
+// Empty for a fixed exposure.
 std::string automatic_exposure_line(const std::optional<ToneMap> &tone_map);
 
 // radiance: R, G, B, non-negative, multiplied by alpha. alpha: one number per pixel, or empty. After a failure an

@@ -1,4 +1,3 @@
-// Keeps a film of the samples so far, from which another run can continue.
 #pragma once
 
 #include "cli/base/context.h"

@@ -22,8 +22,7 @@ std::chrono::steady_clock::duration clock_duration(double seconds) {
 }
 
 pt_render piece_of(const RenderTask &task, std::uint32_t half, std::uint32_t first_row, std::uint32_t rows) {
-    constexpr std::uint64_t other_seed = std::uint64_t{1}
-                                         << 63; // The Python package has the same value, for the same bits.
+    constexpr std::uint64_t other_seed = std::uint64_t{1} << 63; // as in the Python package, for the same bits
     const Rectangle &part = task.window.part;
     pt_render piece = task.render;
     piece.seed ^= half * other_seed;
@@ -32,7 +31,7 @@ pt_render piece_of(const RenderTask &task, std::uint32_t half, std::uint32_t fir
     return piece;
 }
 
-// Adds a piece's statistics. Averages error bounds as if they were fully correlated.
+// Averages error bounds as if they were fully correlated.
 void join(RenderedImage &image, const pt_stats &piece, const pt_error_estimate &error, std::uint32_t rows) {
     if (image.rows_done == 0) {
         image.stats = piece;
@@ -157,8 +156,7 @@ void ImageRender::enter_piece() {
     stopping_.enter_piece(end);
 }
 
-// Continues until the samples suffice, the target error is reached, or stop() is true. The library checks the error at
-// sample counts that do not depend on the steps.
+// The library checks the error at sample counts that do not depend on the steps.
 void ImageRender::render_piece() {
     constexpr std::uint32_t first_end = 16; // first count with a known error
     pt_stats done = context_.stats();
@@ -184,7 +182,7 @@ pt_result ImageRender::take(std::uint32_t length, double done) {
     std::function<bool(double)> goes_on = [&](double fraction) {
         const double taken = fraction * std::max(length, 1U);
         progress_.update_samples((done + taken) * task_.half_count(), Clock::now());
-        const bool has_sample = taken >= 1.0; // Otherwise there is nothing new to show.
+        const bool has_sample = taken >= 1.0;
         return !stops() && !(has_sample && pauses());
     };
     auto info = sized<pt_accumulate_info>();
@@ -203,7 +201,7 @@ bool ImageRender::has_ended(pt_result result, const pt_stats &done) const {
     return result == PT_TARGET_REACHED || (result == PT_OK && done.max_sample_count >= round_.end);
 }
 
-// Runs after a step. An error estimate reads the whole image, so estimates for progress alone may take 1% of the time.
+// An error estimate reads the whole image, so estimates for progress alone may take 1% of the time.
 pt_stats ImageRender::look(pt_result result) {
     constexpr double share = 0.01;
     const Clock::time_point start = Clock::now();
@@ -260,7 +258,6 @@ void ImageRender::preview(Clock::time_point now) {
     preview_task_.start([this] { has_preview_failed_ = !write_preview_(preview_); });
 }
 
-// Whether the step should end at its next complete sample.
 bool ImageRender::pauses() const {
     return wants_preview() || (checkpoint_ && checkpoint_->is_due()) || stopping_.is_due();
 }

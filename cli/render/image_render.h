@@ -1,5 +1,5 @@
-// Takes an image's samples in steps. Between steps are progress, previews and checkpoints. If the device lacks memory,
-// the image is rendered in pieces of rows. Neither steps nor pieces change the bits.
+// Takes an image's samples in steps, between which are progress, previews and checkpoints. If the device lacks memory,
+// it renders pieces of rows. Neither steps nor pieces change the bits.
 #pragma once
 
 #include "cli/base/context.h"
@@ -96,8 +96,8 @@ private:
     RenderedImage image_{};
     std::uint32_t piece_rows_ = 0;
 
-    Clock::time_point next_error_; // time of the next error estimate for progress
-    StoppingTest stopping_;        // no rules for a half
+    Clock::time_point next_error_;
+    StoppingTest stopping_; // no rules for a half
     Clock::time_point last_preview_ = start_;
     std::atomic<bool> has_preview_failed_ = false;
     RenderedImage preview_{};

@@ -1,4 +1,3 @@
-// Layers beside the radiance, for --layers and --alpha.
 #pragma once
 
 #include "cli/base/context.h"
@@ -30,7 +29,6 @@ inline constexpr ValueNames<7, FileLayer> file_layers({
     {"object-id", {PT_QUANTITY_OBJECT, "id", 1, LayerKind::numbers}},
 });
 
-// A layer of the rendered rectangle.
 struct PictureLayer {
     std::uint32_t quantity;             // PT_QUANTITY_*
     std::vector<float> values;          // from the top left; empty for objects
@@ -38,10 +36,10 @@ struct PictureLayer {
 
     PictureLayer(std::uint32_t of_quantity, std::size_t pixel_count);
 
-    // Converts the library's three values per pixel.
+    // triples: three values per pixel from the library.
     void take(std::span<const float> triples, std::size_t first_pixel);
 
-    // Reads rows of the rectangle from first_row on.
+    // first_row: of the rectangle.
     void read(const Context &context, const Rectangle &part, std::uint32_t first_row, std::uint32_t rows);
 
     // The result refers to this object.
@@ -54,8 +52,8 @@ struct RenderedImage {
     std::vector<float> raw{};      // mean of the samples, for denoised pictures
     std::vector<PictureLayer> layers{};
     std::uint32_t rows_done = 0; // rows with samples
-    pt_stats stats{};            // statistics of these rows
-    pt_error_estimate error{};   // error of these rows
+    pt_stats stats{};            // of these rows
+    pt_error_estimate error{};   // of these rows
 };
 
 } // namespace cli

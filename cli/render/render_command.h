@@ -1,4 +1,3 @@
-// `pt render` and its variants --frames, --parts and --watch.
 #pragma once
 
 #include "cli/base/context.h"
@@ -26,8 +25,7 @@ struct RenderTimes {
     std::chrono::steady_clock::time_point create_start{};
 };
 
-// Renders and writes files. A signal ends the rendering early and keeps the samples. superseded() ends it without
-// writing. Throws Failure.
+// A signal ends the rendering early and keeps the samples. superseded() ends it without writing. Throws Failure.
 ExitCode render_picture(const Context &context, const RenderTask &task, const RenderTimes &times,
                         const Stop &superseded);
 

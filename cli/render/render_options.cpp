@@ -18,7 +18,7 @@
 namespace cli {
 namespace {
 
-// Reads for example "depth,normal". Leaves out radiance.
+// Leaves out radiance.
 std::vector<std::uint32_t> parse_layers(const std::string &text, std::span<const std::string_view> known) {
     const ValueRule rule{.form = ValueRule::Form::name, .kind = "layer", .names = known};
     std::vector<std::uint32_t> quantities;

@@ -1,4 +1,3 @@
-// The options of `pt render`.
 #pragma once
 
 #include "cli/base/number.h"
@@ -59,7 +58,6 @@ struct OutputOptions {
     bool takes_standard_output() const;
 };
 
-// Calls use(option, path) for each output.
 template <typename Options, typename Use>
 void for_each_output(Options &options, Use use) {
     for (auto &path : options.images)
@@ -105,7 +103,7 @@ struct RenderOptions {
     bool watch = false;
     std::string progress = "auto";
 
-    // Returns PT_QUANTITY_* for layers, alpha and denoising.
+    // Returns PT_QUANTITY_*.
     std::vector<std::uint32_t> wanted_layers() const;
 };
 

@@ -1,4 +1,3 @@
-// `pt render --parts`.
 #include "cli/base/text.h"
 #include "cli/film/film.h"
 #include "cli/render/render_command.h"

@@ -114,7 +114,7 @@ std::optional<ToneMap> tone_map_of(const RenderTask &task, std::span<const float
     return needs_tone_map(task.options.output) ? std::optional(task.scene.display.tone_map(radiance)) : std::nullopt;
 }
 
-// The second half has albedo and normal. They are kept only if wanted.
+// Albedo and normal of the second half are kept only if wanted.
 RenderedImage denoised_halves(const RenderOptions &options, const RenderedImage &first, RenderedImage second) {
     const auto guide = [&](std::uint32_t quantity) -> std::span<const float> {
         return std::ranges::find(second.layers, quantity, &PictureLayer::quantity)->values;

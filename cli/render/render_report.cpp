@@ -37,7 +37,7 @@ double samples_per_second(const RenderReport &report) {
     return report.accumulate_seconds > 0.0 ? pixels * report.stats.mean_sample_count / report.accumulate_seconds : 0.0;
 }
 
-// Says why the relative error may be far off. Empty if there is no reason.
+// Empty unless the relative error may be far off.
 std::string uncertainty_text(std::uint32_t uncertain) {
     if ((uncertain & PT_UNCERTAIN_UNMET) != 0)
         return ", uncertain: few samples meet small lamps, take more";
@@ -169,8 +169,7 @@ std::string error_text(const RenderReport &report) {
     return estimate_text(report) + (report.target_error > 0.0 ? "; " + target_text(report) : "");
 }
 
-// There is no date, so equal runs give equal files. The name samplesPerPixel is pbrt's. Numbers beyond OpenEXR's int32
-// are texts.
+// There is no date, so equal runs give equal files. Numbers beyond OpenEXR's int32 are texts.
 std::vector<ImageAttribute> image_metadata(const RenderReport &report, const ToneMap *tone_map) {
     std::vector<ImageAttribute> attributes;
     const auto add = [&](const char *name, auto value) { attributes.push_back({name, std::move(value)}); };

@@ -1,4 +1,3 @@
-// Facts of a rendering, for files and people.
 #pragma once
 
 #include "cli/film/film.h"
@@ -31,8 +30,8 @@ struct RenderReport {
     double create_seconds;
     double accumulate_seconds;
     double total_seconds;
-    std::optional<ToneMap> tone_map; // tone mapping of an output, if any
-    std::string ended_by;            // "samples", "error", "signal", or a result of StoppingTest
+    std::optional<ToneMap> tone_map;
+    std::string ended_by; // "samples", "error", "signal", or a result of StoppingTest
     std::vector<std::string> warnings;
 
     bool target_reached() const { return target_error > 0.0 && error.relative_rmse_high <= target_error; }

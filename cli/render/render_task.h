@@ -32,7 +32,7 @@ void require_host_memory(const RenderTask &task);
 
 std::uint64_t image_bytes(const RenderTask &task);
 
-// Throws Failure for a refused argument and names the option, or the place in the file, that set it.
+// Throws Failure and names the option, or the place in the file, that set the refused argument.
 void require(const Context &context, const RenderTask &task, pt_result result);
 
 // A pt_progress_fn. user: a std::function<bool(double)>.

@@ -1,4 +1,3 @@
-// `pt render --watch`.
 #include "cli/base/file.h"
 #include "cli/base/interrupt.h"
 #include "cli/base/text.h"
@@ -94,7 +93,7 @@ private:
             edited_.clear();
     }
 
-    // All pictures share it, because its creation takes longer than most renderings.
+    // Creating it takes longer than most renderings.
     void refresh_context() {
         if (!context_) {
             context_.emplace(render_create_info(options_, log_));

@@ -1,4 +1,3 @@
-// Watches the scene, data files and kernels for changes.
 #pragma once
 
 #include <chrono>
@@ -25,7 +24,7 @@ public:
     // Must precede the first use of the files.
     void begin();
 
-    // Watches data files, too. They may exceed the memory, so only their state is kept.
+    // Data files may exceed the memory, so only their state is kept.
     void follow(const std::set<std::filesystem::path> &data);
 
     bool has_data() const { return !data_.empty(); }

@@ -21,7 +21,6 @@ struct StoppingRules {
     bool has_target() const { return target_error > 0.0; }
     bool has_any() const { return has_target() || time_limit; }
 
-    // Default number of samples per pixel.
     std::uint32_t usual_samples() const { return has_any() ? 65536 : 64; }
 
     double growth_left(double seconds) const {
@@ -42,7 +41,6 @@ inline std::uint32_t forecast_sample_count(std::uint32_t sample_count, double er
     return static_cast<std::uint32_t>(std::min(std::max(std::ceil(guess), least), static_cast<double>(most)));
 }
 
-// Is asked between steps.
 class StoppingTest {
 public:
     using Clock = std::chrono::steady_clock;

@@ -29,7 +29,6 @@ float reflected_share(const pt_material &material) {
     return largest;
 }
 
-// IEC 61966-2-1.
 double light_of_byte(float byte) {
     const double signal = byte / 255.0;
     return signal <= 0.04045 ? signal / 12.92 : std::pow((signal + 0.055) / 1.055, 2.4);

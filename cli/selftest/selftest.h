@@ -1,4 +1,3 @@
-// Scenes of `pt selftest`. Their light is known exactly.
 #pragma once
 
 #include "cli/scene/scene_file.h"
@@ -30,7 +29,6 @@ struct SelftestScene {
     double rounding;     // largest relative float32 error of a sample
     int power = 1;       // 0: expected is the fraction of pixels that are not black
 
-    // Returns the largest relative error that passes.
     double bound() const;
 
     // Judges each number if there is no noise, otherwise the mean of each channel.

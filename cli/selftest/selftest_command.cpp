@@ -1,4 +1,3 @@
-// `pt selftest`: whether a device computes correctly.
 #include "cli/base/devices.h"
 #include "cli/base/exit_code.h"
 #include "cli/base/file.h"
@@ -70,7 +69,6 @@ std::vector<SelftestCheck> check_functions(const Context &context) {
     return checks;
 }
 
-// Calls pt_accumulate once for each count.
 std::vector<float> render(const Context &context, const SceneFile &scene,
                           const std::vector<std::uint32_t> &sample_counts) {
     describe_scene(context, scene, [](double) { return true; });

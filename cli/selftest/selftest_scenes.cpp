@@ -25,7 +25,6 @@ double noise_bound(double relative_std, double sample_count) {
     return (linear + std::sqrt(linear * linear + 2.0 * sample_count * variance * log_probability)) / sample_count;
 }
 
-// power 0: returns the fraction of nonzero values.
 double channel_mean(std::span<const float> radiance, std::size_t channel, int power) {
     double sum = 0.0;
     for (std::size_t i = channel; i < radiance.size(); i += 3)
