@@ -19,7 +19,7 @@ enum class ExitCode {
     images_differ = 8,
     undecided = 9,  // too few samples for a verdict
     resumable = 75, // EX_TEMPFAIL of sysexits.h; schedulers retry
-    signal = 128    // plus the signal's number
+    signal = 128    // the signal's number is added
 };
 
 inline constexpr const char *exit_code_help =

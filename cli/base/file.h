@@ -95,7 +95,7 @@ auto read_file(const std::string &path, Read read) {
     }
 }
 
-// "-" is standard input. May stop at a NUL byte.
+// "-" is standard input. The text may end at a NUL byte.
 std::string read_text(const std::string &path);
 
 // Removes a byte order mark. Throws Failure(ExitCode::scene) for a NUL byte.

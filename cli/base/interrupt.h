@@ -17,7 +17,7 @@ public:
     ~EndAtOnce();
 };
 
-// Returns 0 before a signal.
+// Returns 0 if no signal came.
 int interrupt_signal();
 
 std::string interrupt_name();

@@ -90,10 +90,10 @@ struct ValueRule {
     double least = -std::numeric_limits<double>::infinity();
     double largest = std::numeric_limits<double>::infinity();
     bool excludes_largest = false;
-    bool may_be_negative = false; // The negative range and 0 are valid, too.
+    bool may_be_negative = false; // also allows the negative range and 0
     bool is_of_library = false;   // The library checks the range.
     bool is_float = false;
-    bool excludes_zeros = false; // At least one number must not be 0.
+    bool excludes_zeros = false; // refuses zeros only
     std::size_t count = 0;
     std::string_view kind = {}; // kind of names, for messages
     std::span<const std::string_view> names = {};

@@ -27,7 +27,7 @@ struct ImageDifference {
     double relative_mse; // mean of (x - r)^2 / (r^2 + 0.01)
 
     double maximum;
-    std::size_t maximum_value; // index of this value
+    std::size_t maximum_value; // index of the pixel value with this difference
 
     std::size_t not_finite; // pixels that are not finite in some channel of either image
 };

@@ -156,7 +156,7 @@ std::vector<std::uint8_t> map_to_bytes(std::span<const float> radiance, const To
 
 double automatic_exposure(std::span<const float> radiance) {
     constexpr double middle_grey = 0.18;
-    constexpr double black = 1.0 / 128.0; // relative to the level
+    constexpr double black = 1.0 / 128.0; // fraction of the level
     std::vector<double> means;
     for (std::size_t i = 0; i + 2 < radiance.size(); i += 3)
         if (const double mean = (static_cast<double>(radiance[i]) + radiance[i + 1] + radiance[i + 2]) / 3.0;

@@ -68,8 +68,7 @@ std::string ending_of(const RenderReport &report, const ImageRender::Result &ren
     return interrupted ? "signal" : rendered.ended_by.value_or(report.target_reached() ? "error" : "samples");
 }
 
-// For a rendering without a signal. A missing file takes precedence over missing samples, which a checkpoint can
-// supply.
+// Assumes that no signal came. A missing file takes precedence over missing samples, which a checkpoint can supply.
 ExitCode outcome_of(const RenderReport &report, const ImageRender::Result &rendered, bool all_written) {
     if (!all_written)
         return ExitCode::file;

@@ -37,7 +37,7 @@ double samples_per_second(const RenderReport &report) {
     return report.accumulate_seconds > 0.0 ? pixels * report.stats.mean_sample_count / report.accumulate_seconds : 0.0;
 }
 
-// Empty unless the relative error may be far off.
+// Empty if the relative error is reliable.
 std::string uncertainty_text(std::uint32_t uncertain) {
     if ((uncertain & PT_UNCERTAIN_UNMET) != 0)
         return ", uncertain: few samples meet small lamps, take more";

@@ -39,8 +39,7 @@ std::vector<SelftestScene> selftest_scenes();
 
 SelftestScene lamp_in_a_ball();
 
-// Each technique of multiple importance sampling contributes much: an error of 2% in a weight moves the mean by at
-// least twice the bound.
+// An error of 2% in a weight of multiple importance sampling moves the mean by at least twice the bound.
 std::vector<SelftestScene> weight_scenes();
 
 // Samples are cosines of sampled directions. Checks means, second moments, and the fraction on each side.

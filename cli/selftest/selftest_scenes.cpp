@@ -11,7 +11,7 @@
 namespace cli {
 namespace {
 
-// Probability that one check fails on a correct device. For all checks it is about 1e-6.
+// Probability that one check fails on a correct device. All checks together have about 1e-6.
 constexpr double false_alarm = 1e-7;
 
 // Bernstein (Boucheron, Lugosi, Massart, Concentration Inequalities, 2013, section 2.8), solved for t: P(|error| > t)
@@ -115,8 +115,8 @@ SelftestScene huge_ball_as_floor() {
 }
 
 // A glossy floor in a dome of radiance 1. The integral of (n + 2) / (2 pi) cos^n g cos, with g from the mirror
-// direction r, is the cosine of r, because only components along r contribute. The horizon does not clip the lobe. In
-// the plane of incidence its variance 1 / n changes the cosine by tan / sqrt(n).
+// direction r, is the cosine of r, because only components along r contribute. The horizon does not clip the lobe. Its
+// variance 1 / n in the plane of incidence changes the cosine by tan / sqrt(n).
 SelftestScene sharp_lobe() {
     const SceneFile scene = floor_scene(R"(
         "materials": {"dome": {"emission": 1}, "floor": {"specular": 1, "glossiness": 1e6}},
@@ -145,8 +145,8 @@ SelftestScene receding_lamp() {
 // The standard deviations of the next three scenes are from quadrature, rounded up. Their bounds are below 1% of the
 // smallest contribution of a weight.
 
-// The lamp fills a cone of 30 degrees. There, four directions together have nearly the density of the lamp's sample, so
-// each technique contributes half of the value.
+// The lamp fills a cone of 30 degrees. Four directions together have nearly the density of the lamp's sample, so each
+// technique contributes half of the value.
 SelftestScene weights_of_a_lamp() {
     const SceneFile scene = floor_scene(R"(
         "materials": {"lamp": {"emission": 4}, "floor": {"diffuse": 1}},
@@ -210,7 +210,7 @@ struct DirectionKind {
 };
 
 // A floor under a sky of radiance 1, seen from above by parallel rays, with one independent sample per pixel.
-// more_planes leave this fraction of the directions at any cosine.
+// share: fraction of the directions that more_planes leave free, at any cosine.
 SelftestScene direction_scene(const DirectionKind &kind, const std::string &what, int exponent,
                               const std::string &more_planes, double share) {
     const auto moment = [&](int e) {

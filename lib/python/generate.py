@@ -32,7 +32,7 @@ ENUMERATIONS = (
                                  "first four."),
 )
 
-# For each prefix: the table's name in the program, and the separator of words in its values.
+# Prefix: name of the program's table, separator of words in value names.
 OF_PROGRAM = {"PT_SAMPLER_": ("samplers", "-"), "PT_SAMPLING_": ("samplings", "-"), "PT_ESTIMATOR_": ("estimators", "-"),
               "PT_PROJECTION_": ("projections", "-"), "PT_FEATURE_": ("features", "_"),
               "PT_UNCERTAIN_": ("uncertainties", "_")}

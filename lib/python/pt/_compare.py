@@ -49,7 +49,7 @@ def compare(first: Film | Image | npt.ArrayLike, second: Film | Image | npt.Arra
     """Tests whether two images show the same light (shaders/README.md, section 11).
 
     first, second   films, images or radiance of shape (height, width, 3), equally large. Changes are relative to the
-                    second. With the same seed and sampler smaller changes are found
+                    second. Images with the same seed and sampler reveal smaller changes
     rate            probability of calling equal light different
     min_change      Light.UNDECIDED if a relative change of all light by this much may be missed
     look            1, 2, ... for repeated tests of growing images; `rate` is then for all together
@@ -73,7 +73,7 @@ def compare(first: Film | Image | npt.ArrayLike, second: Film | Image | npt.Arra
 def assert_same_light(first: Film | Image | npt.ArrayLike, second: Film | Image | npt.ArrayLike, *,
                       min_change: float = 0.01, rate: float = 1e-6) -> None:
     """Raises AssertionError with the most different regions if the light differs, or if a relative change by min_change
-    may have been missed. Arguments are those of compare()."""
+    may have been missed. The arguments are as in compare()."""
     comparison = compare(first, second, rate=rate, min_change=min_change)
     if comparison.light in (Light.EQUAL_BITS, Light.SAME):
         return

@@ -11,9 +11,9 @@ class BrokenRule:
     """A broken rule, such as `spheres[3].center[0] = nan: must be finite`."""
 
     subject: str  # "materials", "spheres", "planes", "sphere_arrays", "scene", "camera", "render", ...
-    index: int | None  # for arrays
+    index: int | None  # only for arrays
     member: str  # "center"; "" if the rule concerns the argument itself
-    component: int | None  # for members with several components
+    component: int | None  # only for vectors
     joined_with: str  # other factor of the value, such as "* height" for a rule about width * height; else ""
     value: str  # "nan"
     rule: str  # "must be finite"
@@ -31,7 +31,7 @@ class Error(Exception):
 
     result: Result
     broken_rules: tuple[BrokenRule, ...]
-    """The first eight rules that the message is about; empty where it is about no field."""
+    """At most the first eight rules; empty if the message concerns no field."""
 
     def __init__(self, message: str, broken_rules: tuple[BrokenRule, ...] = ()) -> None:
         super().__init__(message)

@@ -23,7 +23,7 @@ def packer(size: int) -> Any:
     found = module()
     if found is None:
         return None
-    if hasattr(found.ZstdCompressor, "compressobj"):  # only the module zstandard
+    if hasattr(found.ZstdCompressor, "compressobj"):  # The module zstandard has it.
         return found.ZstdCompressor().compressobj(size=size)
     compressor = found.ZstdCompressor()
     compressor.set_pledged_input_size(size)

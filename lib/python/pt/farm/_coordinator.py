@@ -25,7 +25,7 @@ from pt.farm._sum import Sum, read_film, write_film
 from pt.farm._workers import MOST_FETCHED, Member, Try, now, submit
 
 TICK = 0.25
-SLOTS = 2  # parts per worker: one renders while another is being transferred
+SLOTS = 2  # parts per worker; one is rendered while another is transferred
 
 # Number of tiles that keeps a device busy. CPU: 4 for each of 16 cores. GPU: 262,144 pixels.
 LEAST_TILES = {True: 64, False: 4096}

@@ -26,8 +26,8 @@ class Options:
     checkpoint         name of a film; rendering resumes from it if it exists; None: no checkpoint
     checkpoint_every   seconds
     wait_for_workers   seconds without a ready worker until an error
-    mixed              whether workers with other devices and drivers may join; the picture is then statistically, but
-                       not bit by bit, that of one machine. Needs the module xxhash
+    mixed              whether workers with other devices and drivers may join; the picture then equals one machine's
+                       statistically, but not bit by bit. Needs the module xxhash
     """
 
     part_seconds: float = 5.0
@@ -77,5 +77,5 @@ class Result:
 
     @property
     def devices(self) -> tuple[str, ...]:
-        """Models and drivers. With several, the film's bits differ from those of one machine."""
+        """Models and drivers. Several give other bits than one machine."""
         return tuple(self.film.info.device.split(" and "))

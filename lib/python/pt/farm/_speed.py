@@ -24,8 +24,8 @@ class Speed:
         return work / self.value
 
     def share(self, part_seconds: float, least_seconds: float, remaining: int, all_speeds: float) -> int:
-        """Returns the work of a part that takes part_seconds. Near the end it is half of the worker's fraction of the
-        remaining work (guided self-scheduling: Polychronopoulos and Kuck 1987)."""
+        """The work of a part that takes part_seconds. Near the end parts shrink with the remaining work (guided
+        self-scheduling: Polychronopoulos and Kuck 1987)."""
         together = 0.5 * remaining / all_speeds
         return max(int(self.value * max(min(part_seconds, together), least_seconds)), 1)
 

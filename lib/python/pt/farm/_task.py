@@ -89,7 +89,7 @@ def render_part(name: str, part: Part, codecs: frozenset[str]) -> Outcome:
         try:
             if _ready is None or _ready.name != name:
                 raise RuntimeError("this worker has another job")
-            if _ready.has_failed:  # After a lost device a new context or process is necessary.
+            if _ready.has_failed:  # A lost device needs a new context or process.
                 _ready.renderer.close()
                 _ready.renderer, _ready.has_failed = renderer_of(_ready.job), False
             start = time.monotonic()

@@ -188,7 +188,7 @@ def _with_extent(particles: Particles) -> Particles:
 
 
 def _put_labels(particles: Particles, chosen: dict[str, str]) -> None:
-    """Fills in elements, else types. A column `type` has elements if most of its words are known symbols."""
+    """Sets elements or, without them, types. A column `type` has elements if most of its words are known symbols."""
     columns = particles.columns
     element, kind = (chosen.get(role) or first_of(columns, names) for role, names in
                      (("element", ELEMENTS), ("type", TYPES)))

@@ -140,7 +140,7 @@ def stick_radius(ways: Doubles, model: str, radii: Array) -> float:
 
 
 def meeting_in_sight(halves: Rods, balls: Array) -> Rods:
-    """Ends both halves in the middle of the part between the balls. balls: radii, shape (n,) or (1,)."""
+    """Lets both halves end in the middle of the visible part of the bond. balls: radii, shape (n,) or (1,)."""
     if len(balls) == 1:
         return halves
     lengths = 2.0 * np.linalg.norm(halves.ways, axis=1)

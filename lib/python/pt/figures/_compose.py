@@ -16,8 +16,8 @@ def compose(radiance: npt.NDArray[np.float32], stage: Any, shares: Shares, expos
 
     stage   radiance of the scene without particles: an image, or a number if all pixels are alike
 
-    Debevec 1998, "Rendering Synthetic Objects into Real Scenes", section 5: the change that the particles make is added
-    to the background. A pixel with coverage a has the light T(radiance) + (1 - a) (1 - T(stage)) over white, with the
+    Debevec 1998, "Rendering Synthetic Objects into Real Scenes", section 5: the background
+    gets the change that the particles make. A pixel with coverage a has the light T(radiance) + (1 - a) (1 - T(stage)) over white, with the
     exposure T. The floor is then white and has no horizon. Alpha is the smallest that gives this light over white.
     """
     behind = np.clip(stage * 2.0**exposure, 0.0, 1.0)

@@ -38,7 +38,7 @@ def far_away(positions: Array, radii: Array, notes: list[str]) -> Array | None:
 
 def drawn_cell(particles: Particles, box: str, positions: Array, radii: Array, notes: list[str]) -> Cell | None:
     """By default a cell is not drawn if it belongs to a protein's crystal, or most particles are outside of it or small
-    beside it. Positions and radii are only those of the drawn particles."""
+    beside it. positions, radii: only drawn particles."""
     cell = particles.cell
     if cell is None or box == "none" or (box == "auto" and cell.is_crystal_of_macromolecule):
         return None

@@ -47,7 +47,7 @@ def line_width(size: tuple[int, int]) -> float:
 
 
 def rays_per_side(samples: float, pixels: int) -> int:
-    """With opacity, coverage is random and takes as many rays as samples."""
+    """Opacity makes coverage random, so it takes as many rays as samples."""
     most = min(MOST_PER_SIDE, math.isqrt(MOST_RAYS // pixels))
     return max(min(math.ceil(math.sqrt(samples)), most), PER_SIDE)
 

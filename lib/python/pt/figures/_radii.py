@@ -19,7 +19,7 @@ IN_CELL: Final = 8
 MOST_PAIRS: Final = 4_000_000
 TABLE_BITS: Final = 20
 COVER: Final = 0.01  # least fraction of the picture that balls of unknown radii cover; by taste
-THIN: Final = 0.001  # least radius of these balls, relative to the picture: one pixel
+THIN: Final = 0.001  # their least radius, relative to the picture's side
 SLACK: Final = 0.225  # angstroms: half of the largest excess of bonds over covalent radii
 MOST_FACTOR: Final = 3.0  # largest factor of covalent radii, because dilute gases must stay apart; by taste
 STEPS: Final = np.indices((3, 3, 3)).reshape(3, 1, 27) - 1
@@ -182,7 +182,7 @@ def typical_radius(positions: Array) -> float:
         return 1.0
     median = float(np.median(first))
     # For random points on a surface, a twentieth of the nearest distances is below 0.27 medians: the square root of
-    # log(0.95) / log(0.5). In space it is the cube root, 0.42. Atoms are never that close.
+    # log(0.95) / log(0.5). In space it is the cube root, 0.42. No two atoms are closer than half of the median.
     if len(fourth) and float(np.quantile(first, 0.05)) < 0.5 * median:
         median = float(np.median(fourth))
     return 0.5 * median

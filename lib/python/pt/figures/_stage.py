@@ -7,15 +7,15 @@ from typing import Final
 from pt._fit import Doubles
 from pt._scene import Material, Plane, Sphere
 
-# A surface that faces the key lamp in full view of the surround has its albedo, the legend's color, as radiance.
-SURROUND_BRIGHTNESS: Final = 0.4375  # Few bits, so that means are exact.
+# The radiance of a surface that faces the key lamp, in full view of the surround, is its albedo: the legend's color.
+SURROUND_BRIGHTNESS: Final = 0.4375  # has few bits, so that means are exact
 KEY_BRIGHTNESS: Final = 0.75
 KEY_HALF_ANGLE: Final = math.radians(14.0)
 KEY_AZIMUTH: Final = math.radians(-35.0)
 KEY_ELEVATION: Final = math.radians(40.0)
 FLOOR: Final = Material(diffuse=0.8)
 EDGES: Final = Material(diffuse=0.09)
-FLOOR_GAP: Final = 1e-4  # relative to the radius; less would be lost in rounding
+FLOOR_GAP: Final = 1e-4  # relative to the radius; a smaller gap could vanish by rounding
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,7 @@ def material_of(style: str) -> Material:
 
 
 def make_stage(style: str, axes: Doubles, distance: float, center: Doubles, radius: float, floor: Plane | None) -> Stage:
-    """axes: right, up and forward. distance: from the camera to the middle. center, radius: ball around everything."""
+    """axes: right, up, forward. distance: from camera to middle. center, radius: a ball around everything."""
     material = material_of(style)
     # The key lamp is farther than the camera, so its light is nearly as strong at the far end of the data.
     far = max(20.0 * radius, 4.0 * distance)

@@ -12,10 +12,10 @@ from pt._vectors import Triple
 
 FloatArray = npt.NDArray[np.float64]
 
-DEFAULT_RADIUS = 1 / 50  # radius of a lamp whose light has none, relative to its distance
-LEAST_RADIUS = 1e-6  # relative to the extent: a light with a smaller lamp counts as on a surface
+DEFAULT_RADIUS = 1 / 50  # radius of a light without one, relative to its distance
+LEAST_RADIUS = 1e-6  # relative to the extent; a light with a smaller lamp counts as a light on a surface
 SUN_DISTANCE = 100.0
-LEAST_SHARE = 1 / 3  # lights keep this fraction beside a bright background; by taste
+LEAST_SHARE = 1 / 3  # A bright background dims lights at most to this fraction; by taste.
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,7 @@ class Light:
 @dataclass(frozen=True)
 class Surroundings:
     centers: FloatArray
-    ends: FloatArray  # (n, 3): other centers of capsules; for spheres equal to centers
+    ends: FloatArray  # (n, 3); equal to centers for spheres
     radii: FloatArray
     planes: list[Plane]
     camera: FloatArray  # position, (3,)
@@ -77,7 +77,7 @@ def view_target(centers: FloatArray, radii: FloatArray, planes: list[Plane], pos
 
 
 def dimmed(lights: list[Light], background: Triple) -> list[Light]:
-    """Dims the lights, because pt's background gives light and Tachyon's does not."""
+    """Dims the lights, because the background of pt, unlike Tachyon's, gives light."""
     together = max(map(sum, zip(*(light.color for light in lights))), default=0.0)
     share = max(1.0 - max(background) / together, LEAST_SHARE) if together else 1.0
     return [replace(light, color=(share * light.color[0], share * light.color[1], share * light.color[2]))
@@ -103,7 +103,7 @@ def lamps_of(lights: list[Light], around: Surroundings) -> tuple[list[Sphere], l
         else:
             center = np.array(light.place)
             distance = float(np.linalg.norm(center - around.target))
-            if distance <= LEAST_RADIUS * extent:  # The light is at the target. The distance to the camera replaces 0.
+            if distance <= LEAST_RADIUS * extent:  # The light is at the target. Its distance to the camera replaces 0.
                 distance = float(np.linalg.norm(center - around.camera))
         room = around.clearance(center)
         if light.radius > 0.0:

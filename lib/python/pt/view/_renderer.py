@@ -19,7 +19,7 @@ from pt._stats import ErrorEstimate
 from pt.view._frame import LAYERS, OF_SAMPLES, Frame, facts_of, faults_of, name_of
 from pt.view._source import Shown, Source
 
-MOVING_SECONDS: Final = 0.03  # for a sample of each pixel while the camera moves
+MOVING_SECONDS: Final = 0.03  # duration of a sample of all pixels while the camera moves
 STILL_SECONDS: Final = 0.25
 PUBLISHED_SHARE: Final = 0.03
 LOOK_SECONDS: Final = 0.5

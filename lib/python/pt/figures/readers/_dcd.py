@@ -1,4 +1,4 @@
-"""DCD files without a cell. MDAnalysis writes edges of length 0, which chemfiles refuses."""
+"""DCD files without a cell, for which MDAnalysis writes edges of length 0. chemfiles refuses them."""
 
 from __future__ import annotations
 

@@ -105,7 +105,7 @@ class LammpsData:
         return rows
 
     def _rows(self, what: str, names: list[str], least: int | None = None) -> dict[str, Array]:
-        """Columns after the `least` first ones may have words, types may have labels. All others are numbers."""
+        """The first `least` columns are numbers, except that types may have labels. Further columns may have words."""
         least = least or len(names)
         rows = Rows(self.lines, Layout(names, [name for name in names[:least] if name != "type"], least=least, is_table=True,
                                        rows=what))

@@ -135,7 +135,7 @@ class Rows:
         return result
 
     def _find_words(self, data: bytes) -> None:
-        """Columns except positions have words if their first field is not a number."""
+        """A column has words if its first field is not a number, unless it is a position."""
         layout = self.layout
         lines = (line.decode("utf-8", "replace") for line in io.BytesIO(data))
         first = next((line for line in lines if line.strip() and not (layout.is_table and is_comment(line))), "")
@@ -186,7 +186,7 @@ class Rows:
         return columns if self._has_all_fields(last == "" if last.dtype.kind == "U" else np.isnan(last), data, height) else None
 
     def _has_all_fields(self, is_missing: Array, data: bytes, height: int) -> bool:
-        """Whether rows with a missing last value have an empty field for it."""
+        """Whether all rows have a last field. pandas takes a missing field for a missing value."""
         rows = np.flatnonzero(is_missing)
         if not len(rows) or len(self.layout.names) == 1:
             return True

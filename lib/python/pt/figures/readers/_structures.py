@@ -25,7 +25,7 @@ _ATOMS: Final = frozenset((b"ATOM  ", b"HETATM"))
 _OTHERS: Final = frozenset((b"HEADER", b"EXPDTA", b"SSBOND", b"LINK  ", b"CONECT"))
 _ELEMENT_AND_CHARGE: Final = re.compile(rb"( [A-Za-z]|[A-Za-z][A-Za-z]|[A-Za-z] )( *|[1-9][+-])")
 _DEUTERIUM: Final = 119  # gemmi's number
-PART: Final = 5000  # atoms in a part of a chain
+PART: Final = 5000  # most atoms in a part of a chain
 _OTHER_PART: Final = "\x7f"  # ends the name of every other part of a chain
 
 
@@ -221,7 +221,7 @@ def _connections(structure: Any, columns: dict[str, Array]) -> Iterator[tuple[in
 
 
 def _conect(structure: Any, serials: Array, notes: list[str]) -> Iterator[tuple[int, int]]:
-    """Skips serial numbers that several atoms have."""
+    """Skips ambiguous serial numbers."""
     table = structure.conect_map
     if not table:
         return
