@@ -1,5 +1,3 @@
-"""pt-farm: scene files on a Dask cluster. Workers read and render them by `pt`; this process writes the pictures."""
-
 from __future__ import annotations
 
 import argparse

@@ -1,5 +1,3 @@
-"""Distributes parts, adds returned films, and writes checkpoints."""
-
 from __future__ import annotations
 
 import contextlib

@@ -14,7 +14,7 @@ LOOK_SECONDS = 0.25
 
 
 class Crew:
-    """identity: identity of the films so far. mixed: whether other devices may join."""
+    """identity: of the films so far. mixed: whether other devices may join."""
 
     def __init__(self, client: Any, packed: bytes, done: Done, progress: Progress, identity: Identity | None, *,
                  mixed: bool, patience: float) -> None:

@@ -38,7 +38,6 @@ class FileJob:
 
     arguments   arguments of `pt render`, the scene first
     files       contents of the scene and its files, by name relative to the worker's folder
-    settings    size and first sample
     """
 
     arguments: tuple[str, ...]

@@ -24,7 +24,6 @@ class Options:
     patience           seconds beyond the expected time until another worker gets the part, too
     most_tries         most failures and lost workers of a part
     checkpoint         name of a film; rendering resumes from it if it exists; None: no checkpoint
-    checkpoint_every   seconds
     wait_for_workers   seconds without a ready worker until an error
     mixed              whether workers with other devices and drivers may join; the picture then equals one machine's
                        statistically, but not bit by bit. Needs the module xxhash
@@ -49,16 +48,16 @@ class Progress:
     error: float = float("inf")  # relative error; error_high is its upper bound with 95% confidence
     error_high: float = float("inf")
     workers: int = 0
-    parts: int = 0  # merged parts
+    parts: int = 0
     issued: int = 0
     repeated: int = 0
     dropped: int = 0
     failed: int = 0
     lost: int = 0
-    forgotten: int = 0  # samples of tiles that got lost and are rendered again
+    forgotten: int = 0  # samples that got lost and are rendered again
     part_bytes: int = 0
-    messages: list[str] = field(default_factory=list)  # reports of workers
-    last_result: int = enums.Result.OK  # library result of the last error
+    messages: list[str] = field(default_factory=list)
+    last_result: int = enums.Result.OK  # of the library, for the last error
     ended_by: str = ""  # "samples", "error" or "limit"; "stopped" if progress() returned True
 
     def line(self) -> str:

@@ -7,8 +7,6 @@ BUSY_SHARE = 0.5  # fraction of the coordinator's time for adding films
 
 
 class Speed:
-    """Samples of tiles per second."""
-
     def __init__(self) -> None:
         self.value = FIRST_GUESS
         self._work = self._seconds = 0.0

@@ -1,5 +1,3 @@
-"""Functions that run on workers."""
-
 from __future__ import annotations
 
 import os

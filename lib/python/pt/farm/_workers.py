@@ -86,7 +86,7 @@ async def _gathered(client: Any, future: Any) -> object:
 
 
 def _fetched(client: Any, future: Any, seconds: float) -> Outcome | None:
-    """Converts any fault of a living worker to an outcome that counts against it."""
+    """A fault of a living worker becomes an outcome that counts against it."""
     if future.status not in ("finished", "error"):
         return None
     try:

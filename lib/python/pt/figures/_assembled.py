@@ -1,5 +1,3 @@
-"""Converts a table to particles."""
-
 from __future__ import annotations
 
 from collections.abc import Mapping
@@ -32,7 +30,7 @@ _SHAPES: Final = (("shapex", "shapey", "shapez"), ("c_shape[1]", "c_shape[2]", "
 
 
 def assembled(name: str, given: Table, mapping: Mapping[str, str], drop_nonfinite: bool) -> Particles:
-    """Finds columns by their names, unless a mapping has them: {"x": "pos_x", "radius": "r"}."""
+    """The mapping, such as {"x": "pos_x", "radius": "r"}, replaces names."""
     notes = list(given.notes)
     parts, table = split_columns(name, given.columns)
     chosen = {role: column_name(parts, source, name) for role, source in mapping.items()}
@@ -175,7 +173,7 @@ def _put_radii(particles: Particles, chosen: dict[str, str]) -> None:
 
 
 def _with_extent(particles: Particles) -> Particles:
-    """Drops particles of radius 0. If all radii are 0, they count as unknown."""
+    """If all radii are 0, they count as unknown."""
     if particles.radii is None or (particles.radii != 0).all():
         return particles
     count = int((particles.radii == 0).sum())

@@ -1,4 +1,4 @@
-"""Bonds from covalent radii, from a cutoff, or from the data. Each is drawn as two halves."""
+"""Bonds from covalent radii, a cutoff, or the data. Each is drawn as two halves."""
 
 from __future__ import annotations
 

@@ -31,9 +31,7 @@ SKEW: Final = 4.0  # full range over the 1% to 99% range; uniform: 1, normal: 2,
 
 @dataclass(frozen=True)
 class ColorBar:
-    """low, high   numbers with the first and the last color; the norm is wider if they are equal
-    no_value    color of NaN, or None without NaN
-    """
+    """low, high: numbers with the first and the last color; the norm is wider if they are equal."""
 
     title: str
     low: float

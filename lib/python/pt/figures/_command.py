@@ -1,5 +1,3 @@
-"""pt-figure: a picture of the particles in a file."""
-
 from __future__ import annotations
 
 import argparse
@@ -97,7 +95,6 @@ def joined(words: list[str]) -> list[str]:
 
 
 def check(given: argparse.Namespace) -> None:
-    """Checks the options before a long rendering starts."""
     series = given.turntable or given.frames
     pictures = [path for path in given.output if path != "-"]
     files = [(path, PICTURES) for path in pictures] + [

@@ -88,7 +88,6 @@ def categories(labels: Array) -> tuple[list[str], Array]:
 
 
 def _letters(label: str) -> str:
-    """Extracts Fe from Fe2+, H from 1HB2, C from C_3."""
     found = re.match(r"[\d\s]*([A-Za-z]*)", label)
     return found.group(1) if found else ""
 

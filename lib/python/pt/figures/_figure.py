@@ -85,10 +85,7 @@ class Drawn:
 
 
 def prepare(particles: Particles, options: Options, scale: float | None = None, past: Sequence[Particles] = ()) -> Drawn:
-    """Converts particles to balls. Hidden particles count for radii, color ranges and categories, too.
-
-    past   earlier frames for trails
-    """
+    """Hidden particles count for radii, color ranges and categories, too. past: earlier frames, for trails."""
     notes = list(particles.notes)
     if not len(particles.positions):
         raise ValueError(f"{particles.name} has no particles")

@@ -21,8 +21,8 @@ WIDTH: Final = 8.0
 
 
 def far_away(positions: Array, radii: Array, notes: list[str]) -> Array | None:
-    """Finds balls so far away that the rest would hardly be visible. None: there are none. A ball as large as all others
-    together is never far away."""
+    """Finds balls so far away that the rest would hardly be visible. A ball as large as all others together is never far
+    away."""
     reaches = reaches_of(positions, radii)
     usual = usual_reach(reaches)
     usual = max(usual, float(reaches.max(where=radii > usual, initial=0.0)))
@@ -69,12 +69,8 @@ def _hides(cell: Cell, positions: Array, radii: Array) -> bool:
 
 
 def narrow_note(radii: Array, pixels: float, size: tuple[int, int], scale: float) -> str | None:
-    """A note for balls that are narrower than a pixel and together cover little of the picture.
-
-    radii    scene units
-    pixels   pixels per scene unit
-    scale    scene units per unit of the data
-    """
+    """A note for balls that are narrower than a pixel and together cover little of the picture. radii: scene units.
+    pixels: per scene unit. scale: scene units per unit of the data."""
     if float(radii.min()) >= 0.5 / pixels:
         return None
     halves = radii * pixels

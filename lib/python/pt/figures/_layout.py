@@ -21,8 +21,6 @@ MOST_ASPECT: Final = 2.0
 
 @dataclass(frozen=True)
 class Balls:
-    """centers: shape (n, 3). radii: shape (n,). points: shape (k, 3)."""
-
     centers: Array
     radii: Array
     points: Array

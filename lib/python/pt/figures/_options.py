@@ -1,5 +1,3 @@
-"""A figure's options. One description serves keywords, command line, help and checks."""
-
 from __future__ import annotations
 
 import functools

@@ -1,5 +1,3 @@
-"""Outlines over a rendered figure, and the coverage of pixels by shapes."""
-
 from __future__ import annotations
 
 import math
@@ -30,10 +28,8 @@ class Shares:
 
 @dataclass(frozen=True)
 class Overlaid:
-    """first   index of the first particle among all spheres and capsules
-    count   number of particles, bonds, vectors and edges of the cell, in this order
-    radii   shape (n,), without edges, which have no outlines
-    """
+    """first: index of the first particle among all spheres and capsules. count: particles, bonds, vectors and edges of the
+    cell, in this order. radii: shape (n,), without edges, which have no outlines."""
 
     first: int
     count: int

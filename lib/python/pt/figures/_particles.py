@@ -50,12 +50,12 @@ class Particles:
     """n particles, n >= 1.
 
     positions  shape (n, 3), float32 or float64, finite
-    columns    all columns of the data by name, shape (n,), numbers or str; coordinates are views
+    columns    all columns by name, shape (n,), numbers or str; coordinates are views
     elements   shape (n,), uint8: atomic numbers, 0 if unknown; None if the data have no elements
     types      shape (n,), int or str: labels that are not elements
     radii      shape (n,): a column "radius", or half a column "diameter"
     colors     shape (n, 3) or (n, 4): sRGB, floats in [0, 1], uint8 or uint16
-    bonds      bonds that the data state; None if unknown
+    bonds      None if unknown
     name       name of the data in messages
     notes      warnings for the user
     """
@@ -114,7 +114,7 @@ class Table:
     columns   arrays of one or two dimensions; one column may hold positions of two or three components
     is_text   whether numbers come from text; then their type does not tell the scale of colors
     elements  atomic numbers, 0 if unknown; None: columns may have them
-    types     labels that are not elements, though they may look like them
+    types     labels that are not elements
     rows      indices of the file's atoms in this table; None: all
     sites     number of atoms in the file
     """

@@ -77,7 +77,6 @@ def _unscaled(particles: Particles, radius: Radius, notes: list[str]) -> Array:
 
 
 def opacities_of(particles: Particles, opacity: Opacity) -> Array | None:
-    """Returns shape (n,), or (1,) for all; None: unknown."""
     if opacity is None:
         return None
     shares = _numbers("opacity", _number_or_column(particles, opacity) if isinstance(opacity, str) else opacity,
@@ -189,7 +188,7 @@ def typical_radius(positions: Array) -> float:
 
 
 def _neighbour_distances(positions: Array) -> tuple[Array, Array]:
-    """Distances of a sample to the nearest and the fourth neighbour, within adjacent cells of a grid."""
+    """Looks only into adjacent cells of a grid."""
     count = len(positions)
     fourth = min(4, max(count // 3, 1)) - 1
     low, high = (np.array([end(column) for column in positions.T], np.float64) for end in (np.min, np.max))

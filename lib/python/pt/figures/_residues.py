@@ -88,14 +88,11 @@ def are_beads(names: Array, residues: Array) -> bool:
 
 @dataclass
 class Guess:
-    """elements: atomic numbers, shape (n,), uint8, 0 if unknown, VIRTUAL for sites that are not atoms."""
-
     elements: Array
     notes: list[str]
 
 
 def elements_by_residue(names: Array, residues: Array, wanted: Array | None = None) -> Guess:
-    """Particles outside the mask `wanted` get 0 and no note."""
     pairs = np.char.add(np.char.add(names, " of "), residues)
     chosen = pairs if wanted is None else pairs[wanted]
     values, codes = np.unique(chosen, return_inverse=True)

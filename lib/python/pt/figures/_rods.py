@@ -1,5 +1,3 @@
-"""Capsules: halves of bonds, vectors, and edges of the cell."""
-
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
@@ -75,7 +73,7 @@ def cell_corners(cell: Cell) -> Doubles:
 
 
 def cell_edges(cell: Cell) -> Doubles:
-    """Both ends of the twelve edges, shape (2, 12, 3). A flat cell has four edges."""
+    """Shape (2, 12, 3): both ends. A flat cell has four edges."""
     corners = cell_corners(cell)
     steps = [1 << edge for edge in range(len(corners).bit_length() - 1)]
     pairs = [(k, k | step) for k in range(len(corners)) for step in steps if not k & step]

@@ -1,5 +1,3 @@
-"""Trails through earlier positions of particles, as capsules."""
-
 from __future__ import annotations
 
 from collections.abc import Sequence

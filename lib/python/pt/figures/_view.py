@@ -66,7 +66,7 @@ def relative_height(extents: Doubles) -> float:
 
 
 def toward_camera(view: Direction, compass: Compass, height: float) -> Doubles:
-    """The direction from the data to the camera. height: relative_height, for the three-quarter view."""
+    """height: relative_height, for the three-quarter view."""
     if view == "three-quarter":
         if height == 0.0:
             return compass.up

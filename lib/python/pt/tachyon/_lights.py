@@ -37,7 +37,7 @@ class Surroundings:
     ends: FloatArray  # (n, 3); equal to centers for spheres
     radii: FloatArray
     planes: list[Plane]
-    camera: FloatArray  # position, (3,)
+    camera: FloatArray
     target: FloatArray
 
     def clearance(self, point: FloatArray) -> float:
@@ -51,7 +51,7 @@ class Surroundings:
         return float(min(gaps, default=np.inf))
 
     def extent(self, lights: list[Light]) -> float:
-        """Leaves out planes. Above 0."""
+        """The largest distance, above 0, without planes."""
         reach = np.linalg.norm(np.array([self.centers, self.ends]) - self.target, axis=2).max(axis=0) + self.radii
         places = [np.array(light.place) for light in lights if not light.is_directional] + [self.camera]
         return float(max([float(np.linalg.norm(place - self.target)) for place in places] + reach.tolist()))

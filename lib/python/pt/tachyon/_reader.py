@@ -33,7 +33,6 @@ class TachyonScene:
     """The contents of a file. Each light is a lamp, the background a ball around everything.
 
     scene      one SphereArray of spheres and one of cylinders, each in the order of the file
-    camera     its target lies along Tachyon's viewing direction
     settings   the file's resolution, otherwise defaults
     notes      what was left out, with lines
     """

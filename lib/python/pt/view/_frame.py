@@ -20,11 +20,7 @@ METHODS: Final[dict[str, Any]] = {"sampler": Sampler, "estimator": Estimator}
 
 @dataclass(frozen=True)
 class Frame:
-    """number   number of published frames so far
-    state    facts for the page
-    pixels   the selected layer, height x width x 3; None: no picture yet
-    values   layers of samples, for questions about single pixels
-    """
+    """pixels: the selected layer, height x width x 3. values: layers of samples, for questions about single pixels."""
 
     number: int
     state: dict[str, Any]

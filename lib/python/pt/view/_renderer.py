@@ -27,9 +27,7 @@ SHADERS: Final = (".comp", ".glsl", ".h")
 
 
 class Renderer:
-    """shader_dir    folder of kernels that replace the library's
-    published     called with each frame, on the rendering thread
-    """
+    """published: called with each frame, on the rendering thread."""
 
     def __init__(self, source: Source, published: Callable[[Frame], None], *, shader_dir: pathlib.Path | None = None,
                  device: str | None = None, most: int = 65536, size: tuple[int, int] | None = None) -> None:
@@ -75,7 +73,6 @@ class Renderer:
         self._thread.join()
 
     def saved(self) -> tuple[str, bytes] | None:
-        """Name and contents of a file with the scene and the present camera, or None without a scene."""
         return self._source.saved(self._camera)
 
     # The following functions run on the rendering thread.

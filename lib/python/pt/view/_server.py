@@ -222,7 +222,7 @@ def _log() -> logging.Logger:
 
 
 def changes_of(message: dict[str, Any]) -> dict[str, Any]:
-    """Checks the changes in a message. Raises ValueError, TypeError or KeyError for a bad one."""
+    """Raises ValueError, TypeError or KeyError for a bad message."""
     changes: dict[str, Any] = {}
     for name, value in message.items():
         if name == "camera":

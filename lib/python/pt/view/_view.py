@@ -57,7 +57,6 @@ class View:
         self.address = self._server.address
 
     def close(self) -> None:
-        """Ends the view. The page reports this. A second call does nothing."""
         self._show.close()
         self._server.close()
 

@@ -68,7 +68,7 @@ class TextFrames:
         self._is_whole = False
 
     def head(self) -> int | None:
-        """Reads the next header. Returns the number of particles, or None at the end of the file."""
+        """Returns the next frame's number of particles, or None at the end of the file."""
         raise NotImplementedError
 
     def body(self, count: int) -> Table:

@@ -1,5 +1,3 @@
-"""GROMACS' GRO: columns of fixed width. The number of decimals may vary between files."""
-
 from __future__ import annotations
 
 from typing import Any, Final

@@ -1,5 +1,3 @@
-"""HOOMD-blue's GSD, read by the package gsd."""
-
 from __future__ import annotations
 
 from typing import Any

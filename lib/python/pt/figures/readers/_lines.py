@@ -109,7 +109,7 @@ class Lines:
         return bytes(taken) if size < BLOCK_BYTES else cast(bytes, taken)
 
     def line(self) -> str | None:
-        """Returns a line without its end, or None at the end of the file."""
+        """Returns None at the end of the file."""
         while (end := self._buffer.find(b"\n", self._next)) < 0 and self._fill():
             self._check_length()
         if self._next == len(self._buffer):
@@ -145,7 +145,6 @@ class Lines:
         return data, count
 
     def skip(self, count: int) -> int:
-        """Returns the number of skipped lines."""
         passed = 0
         while passed < count and (lines := self.block(count - passed)[1]):
             passed += lines
@@ -169,7 +168,7 @@ class Lines:
         self.number = number
 
     def mapped(self, dtype: npt.DTypeLike, count: int) -> npt.NDArray[Any]:
-        """Returns up to `count` records, in place unless the file is packed."""
+        """Reads in place unless the file is packed."""
         size = np.dtype(dtype).itemsize
         if self.is_file and not self.is_packed:
             count = min(count, (Path(self.path).stat().st_size - self.byte) // size)

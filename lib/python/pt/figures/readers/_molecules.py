@@ -79,7 +79,6 @@ def read_trajectory(path: str, format: str, topology: Callable[[], Table]) -> Fr
 
 
 def _steps(path: str, format: str) -> tuple[int, Callable[[int], tuple[npt.NDArray[Any], Cell | None]]]:
-    """Returns the number of steps, and a function that reads the positions and the cell of a step."""
     records = frames_without_cell(path) if format == "dcd" else None
     if records is not None:
         return len(records), functools.partial(_without_cell, records)

@@ -1,4 +1,4 @@
-"""Objects of other packages, which are recognised by their types' names, not imported."""
+"""Objects of other packages. Their types are recognised by name, not by import."""
 
 from __future__ import annotations
 
@@ -12,7 +12,6 @@ from pt.figures._particles import Bonds, Table
 from pt.figures.readers._atoms import atoms_table
 from pt.figures.readers._frames import Frames, Listed
 
-# Our column names, and MDAnalysis' attributes.
 _ATTRIBUTES: Final = {"element": "elements", "name": "names", "type": "types", "radius": "radii", "mass": "masses",
                       "charge": "charges", "resid": "resids", "resname": "resnames", "chain": "segids"}
 

@@ -1,5 +1,3 @@
-"""PCD files of the Point Cloud Library."""
-
 from __future__ import annotations
 
 from typing import Any, Final

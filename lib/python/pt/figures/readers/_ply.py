@@ -1,5 +1,3 @@
-"""Points in PLY files (Stanford)."""
-
 from __future__ import annotations
 
 from collections.abc import Mapping

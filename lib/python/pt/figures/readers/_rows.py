@@ -166,7 +166,7 @@ class Rows:
                 dtype={i: "category" for i in range(width) if self._are_words[i]}, keep_default_na=False,
                 na_values={i: list(MISSING) for i in range(width) if not self._are_words[i]}, low_memory=False,
                 encoding_errors="replace", engine="c",
-                **({"float_precision": "round_trip"} if pandas.__version__ < "3" else {}))  # pandas 3 has this default.
+                **({"float_precision": "round_trip"} if pandas.__version__ < "3" else {}))  # the default of pandas 3
         except (ValueError, OverflowError):
             return None
         may_skip = layout.is_table and b'"' not in data  # Blank lines may be skipped.

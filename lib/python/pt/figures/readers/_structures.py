@@ -128,7 +128,7 @@ def divide_chains(block: Any) -> None:
 
 
 def _named_by_number(structure: Any) -> Array:
-    """Returns the chain of each atom. Gives chains the short names that a FlatStructure requires."""
+    """Gives chains the short names that a FlatStructure requires."""
     chains = [chain for model in structure for chain in model]
     names = [chain.name.removesuffix(_OTHER_PART) for chain in chains]
     for number, chain in enumerate(chains):
