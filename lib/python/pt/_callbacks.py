@@ -21,8 +21,6 @@ Log = Callable[[LogLevel, str], object]
 
 
 class CallbackGuard:
-    """Guards one call of the library by `with`."""
-
     def __init__(self) -> None:
         self.error: BaseException | None = None
         self._functions: list[Callable[..., Any]] = []

@@ -1,5 +1,3 @@
-"""The camera and the render settings."""
-
 from __future__ import annotations
 
 import math
@@ -100,7 +98,7 @@ class Camera:
 
     @staticmethod
     def _of_section(section: dict[str, Any]) -> Camera:
-        """Raises ValueError, TypeError or KeyError if the section of a scene file is not a camera."""
+        """Raises ValueError, TypeError or KeyError for a bad section."""
         others = {name: float(section[name]) for name in ("vertical_extent", "aperture", "focus") if name in section}
         angle = section.get("vertical_fov")
         first, last = map(float, section.get("shutter", (0.0, 1.0)))
@@ -138,10 +136,8 @@ class RenderSettings:
     max_path_length   surface vertices after the camera, in [1, 1024]; 1 shows emission only
     seed              the same inputs, device, driver and seed give the same bits
     first_sample      index of the first sample; films of different index ranges can be added
-    estimator         method that finds the light
-    sampler           source of a sample's numbers
     first_row         first row to render; the rows are read back as an image
-    row_count         number of rows; 0 for all from first_row on
+    row_count         0: all rows from first_row on
     """
 
     width: int

@@ -1,5 +1,3 @@
-"""NumPy arrays as columns of spheres. Suitable layouts are read in place."""
-
 from __future__ import annotations
 
 from typing import Any, Final

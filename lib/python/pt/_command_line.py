@@ -1,5 +1,3 @@
-"""Parts that the package's commands share: exit codes, number options, file names."""
-
 from __future__ import annotations
 
 import argparse

@@ -13,7 +13,7 @@ from pt._film import Film
 from pt._image import Image
 from pt._library import checked, library
 
-WORST: Final = 5  # regions in a message
+WORST: Final = 5
 
 
 @dataclass(frozen=True)
@@ -22,7 +22,7 @@ class Region:
 
     x: int
     y: int
-    width: int  # pixels
+    width: int
     height: int
     light: tuple[float, float, float]  # mean of the second image
     difference: tuple[float, float, float]  # mean of the first image minus mean of the second

@@ -30,15 +30,14 @@ MOST_SAMPLES = 2**32 - 1
 class Context:
     """A renderer. Set a scene, a camera and settings, accumulate samples, read the image.
 
-    device                index into devices(), "gpu", "cpu", a UUID, or part of a name; None: the best. "all" shares the
-                          samples among the devices of the best kind, a list with commas among its devices
+    device                index into devices(), "gpu", "cpu", a UUID, or part of a name; None: the best. "all", or a list
+                          with commas, shares the samples among several devices
     log                   called with level and line during any call
     validation            whether the Khronos validation layer reports to log; UnsupportedError if it is missing
     scene_kernels         whether kernels may have a scene's numbers as constants; False suits scenes that change in
                           every frame
     submit_milliseconds   intended length of a submission, in [1, 1000]; calls can stop after each
-    shader_dir            GLSL files that replace the library's kernels (pt/shaders.h); ShaderError if one does not
-                          compile
+    shader_dir            GLSL files that replace the library's kernels (pt/shaders.h)
 
     Use `with` or close(). Otherwise the garbage collector closes the context.
 
@@ -51,7 +50,8 @@ class Context:
     [0, 1]. They stop the call by returning True.
 
     A failed call raises an Error and changes nothing, except that a lost device stays lost and accumulate may keep some
-    samples. Reading an image before the first sample raises InvalidStateError.
+    samples. A broken rule raises InvalidArgumentError, in scenes InvalidSceneError. Reading an image before the first
+    sample raises InvalidStateError.
     """
 
     def __init__(self, device: str | None = None, *, log: Log | None = None, validation: bool = False,
@@ -113,34 +113,29 @@ class Context:
     def set_scene(self, scene: Scene, progress: Progress | None = None) -> Result:
         """Discards all samples. Ten million spheres take some seconds.
 
-        Returns Result.CANCELLED if progress returned True; then nothing has changed. Raises InvalidSceneError; its
-        message has a line for each broken rule, such as "spheres[3].radius = -1: must be > 0"."""
+        Returns Result.CANCELLED if progress returned True; then nothing has changed."""
         guard = self._guard()
         scene_struct = SceneStruct(scene, guard, progress)
         return self._call("pt_set_scene", scene_struct.struct, guard=guard)
 
     def set_camera(self, camera: Camera) -> None:
-        """Discards all samples. Raises InvalidArgumentError for a broken rule."""
+        """Discards all samples."""
         self._call("pt_set_camera", camera._struct())
 
     def set_render(self, settings: RenderSettings) -> None:
-        """Discards all samples. Takes 112 bytes a pixel of device memory.
-
-        Raises InvalidArgumentError for a broken rule. After UnsupportedError or OutOfDeviceMemoryError, render fewer
-        rows at a time."""
+        """Discards all samples. Takes 112 bytes a pixel of device memory. After UnsupportedError or
+        OutOfDeviceMemoryError, render fewer rows at a time."""
         self._call("pt_set_render", settings._struct())
         self._shape = settings.shape()
 
     def reload_shaders(self) -> None:
         """Compiles the files of shader_dir again. Discards the samples if the kernels change.
 
-        Raises ShaderError if a file does not compile; then nothing has changed. Raises InvalidStateError without a
-        shader_dir."""
+        Raises ShaderError if a file does not compile; then nothing has changed."""
         self._call("pt_reload_shaders")
 
     def prepare(self) -> None:
-        """Builds the kernels of accumulate. Cannot be interrupted. Raises InvalidStateError if scene, camera or settings
-        are missing."""
+        """Builds the kernels of accumulate. Cannot be interrupted."""
         self._call("pt_prepare")
 
     def accumulate(self, sample_count: int, *, target_error: float = 0.0, sample_limit: int = 0,
@@ -210,18 +205,16 @@ class Context:
         return error_estimate_of(struct)
 
     def film(self) -> Film:
-        """Returns the exact sums of all samples."""
         return Film(bytes_from(lambda data, size: self._call("pt_save_film", data, size)))
 
     def add_film(self, film: Film) -> None:
         """Adds a film of the same scene, camera and settings (first_sample may differ).
 
-        Raises IncompatibleError if the film shows another picture or repeats samples of this context."""
+        Raises IncompatibleError for another picture or repeated samples."""
         data = film.to_bytes()
         self._call("pt_add_film", data, len(data))
 
     def image(self) -> Image:
-        """Returns radiance, standard error, sample counts and error."""
         return Image(self.readback(Quantity.RADIANCE), self.readback(Quantity.STANDARD_ERROR),
                      self.readback(Quantity.SAMPLE_COUNT), self.error_estimate(), self.stats())
 

@@ -33,7 +33,7 @@ FIRST_SAMPLES: Final = 16  # samples of each image before the first check of a t
 def denoise(first: npt.ArrayLike, second: npt.ArrayLike, albedo: npt.ArrayLike, normal: npt.ArrayLike, *,
             library_path: str | os.PathLike[str] | None = None, any_device: bool = False
             ) -> tuple[Pixels, ErrorEstimate]:
-    """Returns an image without noise, and its error. Each pixel lies between the mean of both images and the filtered one.
+    """Returns an image without noise, and its error. Each pixel lies between the images' mean and the filtered image.
 
     first, second   radiance, shape (height, width, 3), of renderings that differ in RenderSettings.seed only; for
                     dependent images the stated error is too small
@@ -69,8 +69,7 @@ def find_library() -> str | None:
 
 def render_denoised(context: Context, settings: RenderSettings, samples: int, target_error: float,
                     progress: Progress | None) -> Image:
-    """Takes half of the samples with each of two seeds. Checks a target error after 16 samples of each half, and again
-    whenever the number has grown by half."""
+    """Checks a target error after 16 samples of each half, and again whenever the number has grown by half."""
     most = max(samples // 2, 1)
     halves = [settings, replace(settings, seed=settings.seed ^ OTHER_SEED)]
     films: list[Film | None] = [None, None]

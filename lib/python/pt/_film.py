@@ -21,7 +21,7 @@ from pt._library import checked, library
 from pt._pixels import Rectangle, image_struct, new_pixels
 from pt._stats import ErrorEstimate, Stats, error_estimate_of, stats_of
 
-TILE_SIDE = 8  # pixels
+TILE_SIDE = 8
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,7 @@ class FilmInfo:
     width: int  # width of the whole image
     height: int
     x: int  # first column of the smallest rectangle around the film's pixels
-    y: int  # first row of the rectangle
+    y: int
     columns: int  # width of the rectangle
     rows: int  # height of the rectangle
     max_path_length: int
@@ -46,7 +46,7 @@ class FilmTile:
 
     x: int
     y: int
-    width: int  # pixels
+    width: int
     height: int
     samples: tuple[range, ...]  # ranges of indices, ascending, never adjacent
 
@@ -100,7 +100,6 @@ class Film:
 
     @property
     def size(self) -> int:
-        """Number of bytes of to_bytes()."""
         size = ctypes.c_uint64()
         self._call("pt_write_film", None, size)
         return size.value
@@ -119,8 +118,8 @@ class Film:
         return self
 
     def __iadd__(self, other: Film) -> Film:
-        """Raises IncompatibleError if the other film shows another picture or repeats samples of this film; the message
-        has a line for each difference, and nothing has changed."""
+        """Raises IncompatibleError for another picture or repeated samples; the message has a line for each difference,
+        and nothing has changed."""
         if not isinstance(other, Film):
             return NotImplemented
         data = other.to_bytes()
@@ -229,7 +228,6 @@ def bytes_from(write: Callable[[Any, ctypes.c_uint64], object]) -> bytes:
 
 
 def _unpacked(data: bytes) -> bytes:
-    """Returns the contents of a zstd frame, and other bytes unchanged."""
     if not data.startswith(_zstd.MAGIC):
         return data
     module = _zstd.module()

@@ -91,7 +91,7 @@ class Extents:
 
 def pyramid(tangents: tuple[float, float]) -> Doubles:
     """Outward unit normals of a perspective's bounding planes, in the view's axes: left, right, bottom, top. The tangents
-    belong to the horizontal and the vertical half angle."""
+    belong to the half angles."""
     across, upwards = (1.0 / math.hypot(1.0, tangent) for tangent in tangents)
     sines = tangents[0] * across, tangents[1] * upwards
     return np.array([(-across, 0.0, -sines[0]), (across, 0.0, -sines[0]),

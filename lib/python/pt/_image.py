@@ -17,7 +17,7 @@ class Image:
     standard_error   standard error of each number; a rough hint for a single pixel, infinite with up to 8 samples
     sample_count     shape (height, width), uint32
     error_estimate   for the whole image
-    stats
+    stats            counts and costs
     exposure         stops for _repr_png_ and save; None: automatic
     raw              for a denoised image the mean of the samples, to which standard_error belongs; else None
     """
@@ -44,7 +44,7 @@ class Image:
 
     @property
     def error_bounds(self) -> tuple[float, float]:
-        """Bounds of the relative error with 95% confidence."""
+        """With 95% confidence."""
         return self.error_estimate.relative_rmse_low, self.error_estimate.relative_rmse_high
 
     def __array__(self, dtype: npt.DTypeLike | None = None, copy: bool | None = None) -> npt.NDArray[Any]:

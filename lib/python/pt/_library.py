@@ -1,5 +1,3 @@
-"""Loads libpt and declares its functions. Results become values or exceptions."""
-
 from __future__ import annotations
 
 import ctypes

@@ -18,7 +18,7 @@ class Stats:
     max_sample_count: int  # most of a pixel (Sampling.ADAPTIVE)
     mean_sample_count: float
     rejected_samples: int  # NaN, infinite, negative or too bright
-    features: Feature  # features of the kernel
+    features: Feature
     device_bytes: int  # present memory on all devices of the context
     device_count: int
     device_seconds: float  # sum over submissions
@@ -44,7 +44,7 @@ class ErrorEstimate:
     relative_rmse: float  # 0.01 is 1%
     relative_rmse_low: float
     relative_rmse_high: float
-    uncertain: Uncertain  # reasons why the error may be far off
+    uncertain: Uncertain
 
 
 def error_estimate_of(struct: structs.pt_error_estimate) -> ErrorEstimate:
@@ -57,11 +57,11 @@ def error_estimate_of(struct: structs.pt_error_estimate) -> ErrorEstimate:
 class DeviceInfo:
     name: str
     kind: DeviceKind
-    driver: str  # name and version
+    driver: str
     memory_bytes: int  # size of the largest memory heap that kernels can access quickly
     uuid: uuid.UUID  # stable over reboots; differs between devices of one model
     suitable: bool  # whether a Context can use the device
-    reason: str  # why not
+    reason: str
 
 
 def device_of(struct: structs.pt_device_info) -> DeviceInfo:
