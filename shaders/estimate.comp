@@ -15,8 +15,8 @@ layout(push_constant) uniform Push { EstimateConstants estimate; };
 
 layout(set = 0, binding = BINDING_RESOLVED) writeonly buffer Groups { TileErrors groups[]; } estimated;
 
-// `counts` has each tile's samples in the older and the newer part. `squares` gets each tile's squared relative errors
-// from samples and from unseen light.
+// `counts` has each tile's samples in the older and the newer part, if tiles differ. `squares` gets, on request, each
+// tile's squared relative errors from samples and from unseen light.
 layout(set = 0, binding = BINDING_TILE_COUNTS) readonly buffer TileCounts { uvec2 counts[]; } tile_samples;
 layout(set = 0, binding = BINDING_TILE_SQUARES) writeonly buffer TileSquares { vec2 squares[]; } tile_squares;
 

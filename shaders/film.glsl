@@ -95,7 +95,8 @@ uint film_store_sum(uint first, uint stride, uvec4 sum, bool is_first)
 // Planes that rarely change: the sums' highest words and the number of rejected samples.
 uint rare_plane(uint i) { return i < 3u ? (i + 1u) * FILM_SUM_WORDS - 1u : FILM_REJECTED; }
 
-// This is a loop, because lavapipe 22.3 executes the bodies of all ifs. It usually takes one trip.
+// pixel is the index of its first word in a part. This is a loop, because lavapipe 22.3 executes the bodies of all ifs.
+// It usually takes one trip.
 void film_add_rare_words(uint pixel, uint stride, uvec4 addends)
 {
     uint i = addends.x != 0u ? 0u : addends.y != 0u ? 1u : addends.z != 0u ? 2u : 3u;

@@ -24,8 +24,9 @@ vec3 lattice_point(uint ray)
     return (vec3(point) + 0.5) / float(FILTER_RAYS);
 }
 
-// opacity_number() of dimensions.glsl, but with one lattice for all pixels, because callers take means over pixels. The
-// golden ratio (0x9e3779b9 / 2^32) spreads the numbers over neighbors.
+// opacity_number() of dimensions.glsl, but with one lattice for all pixels, because callers take means over pixels. So
+// the last bits, which choose the lattice, are 0. The golden ratio (0x9e3779b9 / 2^32) spreads the numbers over
+// neighbors.
 uint opacity_number(uint pixel_index, uint ray)
 {
     return ((pixel_index + 1u) * 0x9e3779b9u + bitfieldReverse(ray)) & ~TREE_OPACITY_BITS;

@@ -151,7 +151,7 @@ PT_CONSTANT MATERIAL_INDEX_BITS = 0x3f800000;
 //                     TREE_COLORS)
 //   lamp[tree lamps]  slot; index in the material table; 0; 0
 PT_CONSTANT TREE_WIDTH = 4;
-PT_CONSTANT TREE_STACK_SIZE = 27; // most nodes from the root to a sphere
+PT_CONSTANT TREE_STACK_SIZE = 27; // most nodes from the root to a sphere (sphere_order.h)
 PT_CONSTANT TREE_NODE_WORDS = 3;
 PT_CONSTANT TREE_ALIGNMENT = 16; // 256 bytes: no device asks for more (Vulkan specification, "Limits")
 PT_CONSTANT TREE_LAMP_BIT = 0x80000000u;

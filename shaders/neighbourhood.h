@@ -86,6 +86,7 @@ PT_FUNCTION Neighbourhood neighbourhood_in_line(Sorted line)
     return near;
 }
 
+// Rows have one value each, in `high`.
 PT_FUNCTION Sorted column_of(Sorted above, Sorted row, Sorted below, bool is_first_row, bool is_last_row)
 {
     return sorted(is_first_row ? BELOW_ALL : above.high, row.high, is_last_row ? BELOW_ALL : below.high);
