@@ -87,7 +87,7 @@ public:
         require(pt_reload_shaders(context_));
     }
 
-    // For calls that the user's input cannot break.
+    // For calls that fail independently of the user's input.
     void require(pt_result result) const {
         if (result < 0)
             fail(result, last_error());

@@ -59,7 +59,7 @@ constexpr int exit_code_of_signal(int signal) {
     return static_cast<int>(ExitCode::signal) + signal;
 }
 
-// For calls that the user's input cannot break.
+// For calls that fail independently of the user's input.
 constexpr ExitCode exit_code_of(pt_result result) {
     switch (result) {
     case PT_ERROR_INVALID_ARGUMENT:

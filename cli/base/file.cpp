@@ -47,7 +47,7 @@ bool is_same(const fs::path &one, const fs::path &other) {
 
 } // namespace
 
-// The target's name may already have the maximum length, so this one is short.
+// The temporary name is short, because the target's name may have the maximum length.
 std::string temporary_name(int attempt) {
     return ".pt-" + std::to_string(platform::process_number()) + "-" + std::to_string(attempt) + ".tmp";
 }

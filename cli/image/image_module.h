@@ -1,5 +1,5 @@
 // Interface to libpt-image-file.so. Only this module links OpenImageIO, which would load 261 shared objects in 0.2 s.
-// Types are C++, because the module is built with the program. Failures are std::runtime_error.
+// The module is built with the program, so the interface may have C++ types. Failures are std::runtime_error.
 #pragma once
 
 #include "cli/base/number.h"

@@ -72,8 +72,8 @@ def compare(first: Film | Image | npt.ArrayLike, second: Film | Image | npt.Arra
 
 def assert_same_light(first: Film | Image | npt.ArrayLike, second: Film | Image | npt.ArrayLike, *,
                       min_change: float = 0.01, rate: float = 1e-6) -> None:
-    """Raises AssertionError with the most different regions if the light differs, or if a relative change by min_change
-    may have been missed. The arguments are as in compare()."""
+    """Raises AssertionError with the most different regions if the light differs, or if a relative change of all light by
+    min_change may have been missed. The arguments are as in compare()."""
     comparison = compare(first, second, rate=rate, min_change=min_change)
     if comparison.light in (Light.EQUAL_BITS, Light.SAME):
         return

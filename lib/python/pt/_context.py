@@ -193,7 +193,7 @@ class Context:
         return stats_of(struct)
 
     def warning(self) -> BrokenRule | None:
-        """The surface that rounding moves farthest, with advice, or None if it moves by at most a pixel in the image."""
+        """Names the surface that rounding moves farthest, with advice. None if it moves by at most a pixel in the image."""
         struct = structs.pt_broken_rule()
         self._call("pt_get_warning", struct)
         return broken_rule_of(struct) if struct.subject else None

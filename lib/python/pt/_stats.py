@@ -33,9 +33,9 @@ def stats_of(struct: structs.pt_stats) -> Stats:
 
 @dataclass(frozen=True)
 class ErrorEstimate:
-    """Errors, estimated without a reference, with bounds of 95% confidence. x is the image and r its limit. rmse is the
-    root mean square of x - r over pixels and channels, relative_rmse of (x - r) / sqrt(r^2 + 0.01). Below 16 samples
-    lower bounds are 0 and other values infinite.
+    """Errors and bounds with 95% confidence, estimated without a reference. rmse is the root mean square of x - r over
+    pixels and channels, relative_rmse of (x - r) / sqrt(r^2 + 0.01), where x is the image and r its limit. Below 16
+    samples lower bounds are 0 and other values infinite.
     """
 
     rmse: float  # in units of radiance

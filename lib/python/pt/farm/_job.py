@@ -63,8 +63,8 @@ def name_of(data: bytes) -> str:
 
 
 def read_job(scene: str, options: list[str], device: str | None) -> FileJob:
-    """Packs all files that strings in the scene (- for standard input) and --set name. Files outside the scene's folder
-    are renamed. Raises OSError for an unreadable file."""
+    """Packs all files whose names are strings in the scene or in --set. Renames files outside the scene's folder. The
+    scene "-" is standard input. Raises OSError for an unreadable file."""
     place = pathlib.Path("stdin.json" if scene == "-" else scene)
     with sys.stdin.buffer if scene == "-" else open(place, "rb", opener=regular) as file:
         text = file.read()

@@ -74,7 +74,7 @@ def _of_pairs(particles: Particles, pairs: Array) -> Bonds:
 
 
 def _with_images(particles: Particles, bonds: Bonds) -> Bonds:
-    """Leads each bond to the nearest image. Valid for bonds shorter than half of the cell's thickness."""
+    """Leads each bond to the nearest image of its second particle. Bonds must be shorter than half of the cell's thickness."""
     if particles.cell is None or bonds.images is not None:
         return bonds
     first, second = bonds.pairs.T

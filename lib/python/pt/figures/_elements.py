@@ -12,7 +12,7 @@ SYMBOLS: Final = tuple(
     "? H He Li Be B C N O F Ne Na Mg Al Si P S Cl Ar K Ca Sc Ti V Cr Mn Fe Co Ni Cu Zn Ga Ge As Se Br Kr Rb Sr Y Zr Nb "
     "Mo Tc Ru Rh Pd Ag Cd In Sn Sb Te I Xe Cs Ba La Ce Pr Nd Pm Sm Eu Gd Tb Dy Ho Er Tm Yb Lu Hf Ta W Re Os Ir Pt Au "
     "Hg Tl Pb Bi Po At Rn Fr Ra Ac Th Pa U Np Pu Am Cm".split())
-"""By atomic number; 0 is no known element, here and in the tables below."""
+"""Indexed by atomic number, as the tables below. 0 is an unknown element."""
 
 # Angstroms, 0 if unknown. Alvarez, Dalton Trans. 42 (2013) 8617.
 VAN_DER_WAALS_RADII: Final = np.array((
@@ -44,7 +44,7 @@ MASSES: Final = np.array((
     195.084, 196.967, 200.592, 204.38, 207.2, 208.98, 208.982, 209.987, 222.018, 223.02, 226.025, 227.028, 232.038,
     231.036, 238.029, 237.048, 244.064, 243.061, 247.07))
 
-# sRGB. Jmol's colors, but PyMOL's for hydrogen: white would have no edge on a white background.
+# sRGB. Jmol's colors, except that hydrogen has PyMOL's grey: Jmol's white would vanish on a white background.
 COLORS: Final = np.frombuffer(bytes.fromhex(
     "ff1493 "
     "e6e6e6 d9ffff cc80ff c2ff00 ffb5b5 909090 3050f8 ff0d0d 90e050 b3e3f5 ab5cf2 8aff00 bfa6a6 f0c8a0 ff8000 ffff30 "

@@ -99,7 +99,7 @@ class Layout:
 
     @staticmethod
     def of(view: View, reaches: Doubles, style: str, floor: bool) -> Layout:
-        """Raises ValueError if the floor would hide something. reaches: View.reaches of everything shown."""
+        """reaches: View.reaches of everything shown. Raises ValueError if the floor would hide some of it."""
         axes, forward = view.axes, view.axes[2]
         extents = Extents.of(reaches[:6])
         middle = extents.middle

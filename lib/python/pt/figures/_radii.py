@@ -124,8 +124,8 @@ def covalent_factor(particles: Particles) -> float | None:
     radii = elements.COVALENT_RADII[np.unique(particles.elements)]
     radii = radii[radii > 0]
     typical = typical_radius(particles.positions)
-    # Bonded neighbours are two covalent radii apart, those in other solids up to six, those in a gas at 0 degrees Celsius
-    # and 1 bar 32.
+    # In covalent radii, neighbours are 2 apart if they are bonded, up to 6 in other solids, and 32 in a gas at 0 degrees
+    # Celsius and 1 bar.
     if not len(radii) or not 0.7 * radii.min() <= typical <= 30.0 * radii.max():
         return None
     largest = float(radii.max())
@@ -174,8 +174,8 @@ def _of_types(particles: Particles, radii: Mapping[str, float]) -> Array:
 
 
 def typical_radius(positions: Array) -> float:
-    """Half of the distance between most nearest neighbours, so that most balls just touch. For random points, half of
-    the median distance to the fourth neighbour. Coinciding neighbours do not count."""
+    """Half of the distance between most nearest neighbours, so that most balls just touch. Random points get half
+    of the median distance to the fourth neighbour. Coinciding neighbours do not count."""
     first, fourth = _neighbour_distances(positions)
     if not len(first):
         return 1.0
@@ -223,8 +223,8 @@ def _neighbour_distances(positions: Array) -> tuple[Array, Array]:
 
 
 def _near(positions: Array, places: Doubles, low: Doubles, side: float) -> tuple[Doubles, Array, Array]:
-    """Returns the positions in and around the cells of `places`, ordered by cell, and the begins and ends of 27 cells
-    for each place."""
+    """Returns the positions in and around the cells of `places`, ordered by cell. Also returns, for each place, where
+    its 27 cells begin and end."""
     keys = _keys(_cells(places, low, side)[:, :, None] + STEPS)
     wanted = np.zeros(1 << TABLE_BITS, bool)
     wanted[keys] = True

@@ -66,7 +66,7 @@ def relative_height(extents: Doubles) -> float:
 
 
 def toward_camera(view: Direction, compass: Compass, height: float) -> Doubles:
-    """height: relative_height, for the three-quarter view."""
+    """height: result of relative_height() for the three-quarter view."""
     if view == "three-quarter":
         if height == 0.0:
             return compass.up

@@ -34,7 +34,7 @@ class TachyonScene:
 
     scene      one SphereArray of spheres and one of cylinders, each in the order of the file
     settings   the file's resolution, otherwise defaults
-    notes      what was left out, with lines
+    notes      what was left out, with line numbers
     """
 
     scene: Scene

@@ -18,7 +18,7 @@ class Textures:
         self._words = words
         self._left_out = left_out
         self._named: dict[str, int] = {}
-        self._indices: dict[Material, int] = {}  # Files have a texture for each shape. Equal ones become one material.
+        self._indices: dict[Material, int] = {}  # Equal textures become one material.
         self.materials: list[Material] = []
 
     def define(self) -> None:

@@ -39,7 +39,7 @@ class Source(Protocol):
     path: pathlib.Path
 
     def read(self) -> Shown:
-        """Reads or rereads the contents. Raises Error, ValueError or OSError."""
+        """Reads the contents, at each call anew. Raises Error, ValueError or OSError."""
 
     def explained(self, error: Exception) -> str:
         """Returns an error's message with the keys of the file."""

@@ -22,10 +22,10 @@ class Frames(Protocol):
     def count(self) -> int: ...
 
     def has(self, index: int) -> bool:
-        """Needs index >= 0. Reads a file only as far as necessary."""
+        """index: >= 0. Reads a file only as far as necessary."""
 
     def read(self, index: int) -> Table:
-        """Needs 0 <= index < count()."""
+        """index: in [0, count())."""
 
 
 class Listed:

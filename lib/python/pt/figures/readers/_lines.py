@@ -70,7 +70,7 @@ class Lines:
     def close(self) -> None:
         self._raw.close()
 
-    def __del__(self) -> None:  # Frames keep the file open.
+    def __del__(self) -> None:  # Frames keep the file open until then.
         if hasattr(self, "_raw") and self._raw is not sys.stdin.buffer:
             self.close()
 
@@ -197,6 +197,6 @@ def _after_lines(data: bytes, start: int, end: int, most: int) -> tuple[int, int
 
 
 def ending(path: str) -> str:
-    """The lower-case ending, before one of a packer such as .gz."""
+    """The lower-case ending. Skips the ending of a packer, such as .gz."""
     name = Path(path.lower())
     return Path(name.stem).suffix if name.suffix in PACKED_ENDINGS else name.suffix

@@ -26,7 +26,7 @@ _OTHERS: Final = frozenset((b"HEADER", b"EXPDTA", b"SSBOND", b"LINK  ", b"CONECT
 _ELEMENT_AND_CHARGE: Final = re.compile(rb"( [A-Za-z]|[A-Za-z][A-Za-z]|[A-Za-z] )( *|[1-9][+-])")
 _DEUTERIUM: Final = 119  # gemmi's number
 PART: Final = 5000  # most atoms in a part of a chain
-_OTHER_PART: Final = "\x7f"  # ends the name of every other part of a chain
+_OTHER_PART: Final = "\x7f"  # suffix for the name of every second part of a chain
 
 
 def read_pdb(lines: Lines, is_pdbqt: bool = False) -> Listed:
@@ -163,7 +163,7 @@ def _table(structure: Any, flat: Any, chains: Array, rows: slice) -> Table:
 
 
 def _words(letters: Array) -> Array:
-    """Rows end in zeros."""
+    """letters: each row is a word, padded with zeros."""
     rows = np.ascontiguousarray(letters).view(np.uint8)
     width = max(1, int((rows != 0).any(axis=0).sum()))
     packed = np.ascontiguousarray(rows[:, :width]).view(f"S{width}").reshape(-1)
