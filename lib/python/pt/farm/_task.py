@@ -44,7 +44,6 @@ def fault_of(value: object, seconds: float) -> str:
 
 
 def first_part(job: AnyJob) -> Part:
-    """A small part whose film shows the worker's device, driver and kernel."""
     first = job.settings.first_sample
     return Part(first, first + 1, np.zeros(1, np.uint32))
 

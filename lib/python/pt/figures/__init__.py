@@ -1,5 +1,3 @@
-"""Figures of particles: `pt.figure(data)`, and the readers of data."""
-
 from pt.figures._accept import frames, load
 from pt.figures._cell import Cell
 from pt.figures._figure import Figure, figure

@@ -69,7 +69,6 @@ def srgb(name: str, color: Any) -> RGB:
 
 
 def colors_of(particles: Particles, given: Options, notes: list[str]) -> tuple[Bytes, Legend]:
-    """Returns shape (n, 3), or (3,) for one color."""
     color = given.color
     count = len(particles.positions)
     if isinstance(color, str) and "=" in color:

@@ -67,7 +67,6 @@ _UNITED: Final = (13.019, 14.027, 15.035, 16.043)
 
 
 def distinct(labels: Array) -> tuple[Array, Array]:
-    """Returns the labels in order of appearance, and each particle's index into them."""
     codes = np.full(len(labels), -1, np.int32)
     values: list[Any] = []
     while (first := int(np.argmin(codes))) < len(labels) and codes[first] < 0:
@@ -80,7 +79,7 @@ def distinct(labels: Array) -> tuple[Array, Array]:
 
 
 def categories(labels: Array) -> tuple[list[str], Array]:
-    """Like distinct, but with the labels as text in ascending order."""
+    """Returns text in ascending order, otherwise like distinct()."""
     values, codes = distinct(labels)
     order = np.argsort(values)
     names = [f"{value:.9g}" if labels.dtype.kind == "f" else str(value) for value in values[order]]

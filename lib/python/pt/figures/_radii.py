@@ -36,7 +36,6 @@ def column(particles: Particles, name: str) -> Array:
 
 
 def radii_of(particles: Particles, radius: Radius, notes: list[str]) -> Array:
-    """Returns shape (n,), or one number for all. Appends sentences for the user to the notes."""
     factor = 1.0
     if isinstance(radius, str):
         product = re.fullmatch(r"\s*([-+.\deE]+)\s*\*\s*(.+?)\s*", radius)

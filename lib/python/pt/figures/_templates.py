@@ -1,5 +1,3 @@
-"""Bonds of proteins, nucleic acids and water by their atoms' names."""
-
 from __future__ import annotations
 
 from collections.abc import Callable

@@ -1,5 +1,3 @@
-"""Lamps for Tachyon's lights, which are points or directions."""
-
 from __future__ import annotations
 
 from dataclasses import dataclass, replace

@@ -22,7 +22,6 @@ class Textures:
         self.materials: list[Material] = []
 
     def define(self) -> None:
-        """A later definition of the same name replaces this one."""
         name = self._words.word("the name of a TEXDEF")
         self._named[name] = self._body()
 

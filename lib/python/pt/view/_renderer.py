@@ -1,5 +1,3 @@
-"""The thread that renders a view and publishes frames."""
-
 from __future__ import annotations
 
 import math
@@ -216,7 +214,7 @@ class Renderer:
         return restarts or bool(changed and not self._context)
 
     def _adopt(self, shown: Shown) -> None:
-        """Adopts changes of the file. Settings that the user changed in the page stay."""
+        """Settings that the user changed in the page stay."""
         if shown.camera != self._shown.camera:
             self._camera = shown.camera
         fields = {name: value for name, value in vars(shown.settings).items()

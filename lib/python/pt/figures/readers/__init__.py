@@ -112,7 +112,6 @@ def _trajectory(path: str, format: str, topology: str | None) -> Frames:
 
 
 def _format_of(lines: Lines) -> str:
-    """Decides by the first bytes, then by the file's name, then by the first lines."""
     start = lines.peek(4096)
     for magic, format in _FIRST_BYTES:
         if start.startswith(magic):
@@ -146,7 +145,6 @@ def _of_content(start: bytes, lines: Lines) -> str | None:
 
 
 def _is_poscar(rows: list[bytes]) -> bool:
-    """Expects a factor, three vectors, then symbols or counts of atoms."""
     words = [row.decode("utf-8", "replace").split() for row in rows]
     return ([len(row) for row in words[:4]] == [1, 3, 3, 3] and all(is_number(word) for row in words[:4] for word in row)
             and bool(words[4:] and words[4]) and all(re.fullmatch(r"[A-Z][a-z]?\S*|\d+", word) for word in words[4]))

@@ -178,7 +178,6 @@ class LammpsData:
         return atoms_table(positions, columns, elements, self.cell(), self._pairs(columns["id"]), self.notes)
 
     def _elements(self, columns: dict[str, Array]) -> Array | None:
-        """Finds elements by the masses of types. Types get their labels."""
         types, codes = np.unique(columns["type"], return_inverse=True)
         kinds = types.astype(str).tolist()
         names = [self.names.get(kind, "") or kind for kind in kinds]

@@ -109,7 +109,6 @@ class Lines:
         return bytes(taken) if size < BLOCK_BYTES else cast(bytes, taken)
 
     def line(self) -> str | None:
-        """Returns None at the end of the file."""
         while (end := self._buffer.find(b"\n", self._next)) < 0 and self._fill():
             self._check_length()
         if self._next == len(self._buffer):
@@ -184,7 +183,6 @@ class Lines:
 
 
 def _after_lines(data: bytes, start: int, end: int, most: int) -> tuple[int, int]:
-    """Returns the end of up to `most` lines before `end`, and the number of lines."""
     count = 0
     while count < most and start < end:
         stop = min(end, start + 64 * (most - count))

@@ -27,7 +27,6 @@ def read_npy(lines: Lines) -> Frames:
 
 
 def read_npz(lines: Lines) -> Frames:
-    """Arrays with as many rows as the positions become columns."""
     source: Any = lines.path if lines.is_file and not lines.is_packed else io.BytesIO(lines.take(sys.maxsize))
     try:
         with np.load(source, allow_pickle=False) as file:

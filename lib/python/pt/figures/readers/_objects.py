@@ -41,7 +41,6 @@ def of_mdanalysis(group: Any, name: str) -> Frames:
 
 
 def _bonds_of(group: Any) -> Bonds | None:
-    """Returns None if the topology has no bonds."""
     everything = getattr(group.universe, "bonds", None)
     if everything is None:
         return None

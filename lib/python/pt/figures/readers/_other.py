@@ -77,7 +77,6 @@ def _points(positions: Any, columns: dict[str, Any], faces: int) -> Table:
 
 
 def tried(path: str, package: str, read: Callable[[], Any]) -> Any:
-    """Suppresses a package's warnings, and converts its exceptions to DataError."""
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")

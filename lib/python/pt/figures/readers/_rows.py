@@ -118,7 +118,7 @@ class Rows:
         self.count += len(columns[0])
 
     def _put(self, key: str, piece: Array) -> None:
-        """Doubles the capacity if necessary. The system allocates only pages that are written."""
+        """The system allocates only pages that are written, so doubling is cheap."""
         have, end = self._columns.get(key, piece[:0]), self.count + len(piece)
         kind = np.result_type(have, piece)
         if end > len(have) or kind != have.dtype:
@@ -128,7 +128,6 @@ class Rows:
         have[self.count:end] = piece
 
     def columns(self) -> dict[str, Array]:
-        """Three columns of positions are views of one table."""
         result = {name: np.empty(0) for name in self.layout.names}
         for key, values in self._columns.items():
             result.update(zip(self.layout.positions, values[:self.count].T) if key == _TABLE else ((key, values[:self.count]),))

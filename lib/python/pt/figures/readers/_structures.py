@@ -45,7 +45,6 @@ def read_pdb(lines: Lines, is_pdbqt: bool = False) -> Listed:
 
 
 def _split(lines: list[bytes], completed: Callable[[bytes], bytes]) -> tuple[list[bytes], list[tuple[int, list[bytes]]]]:
-    """Returns the lines that belong to all models, and each model's number and lines."""
     others: list[bytes] = []
     models: list[tuple[int, list[bytes]]] = []
     number, cell, atoms = 1, b"", []
@@ -91,7 +90,6 @@ def _with_element(line: bytes) -> bytes:
 
 
 def _with_autodock_element(line: bytes) -> bytes:
-    """AutoDock's type is the last word of a line."""
     number = autodock_element(line.split()[-1].decode("utf-8", "replace"))
     symbol = SYMBOLS[number] if 0 < number < VIRTUAL else "X"
     return line[:76].ljust(76) + f"{symbol:>2}".encode()
@@ -173,7 +171,6 @@ def _words(letters: Array) -> Array:
 
 
 def _likeliest(columns: dict[str, Array]) -> Array:
-    """Selects the alternative with the highest mean occupancy in each residue."""
     kept = np.ones(len(columns["altloc"]), bool)
     alternatives: dict[tuple[Any, ...], dict[str, list[int]]] = {}
     for row in np.flatnonzero(columns["altloc"] != ""):

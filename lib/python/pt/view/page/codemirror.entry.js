@@ -19,7 +19,7 @@ const theme = EditorView.theme({
   ".cm-cursor": {borderLeftColor: "#7fc8f8"},
 }, {dark: true});
 
-// The usual functions of a program editor. `keys` have priority.
+// `keys` have priority.
 export const basic = keys => [
   lineNumbers(), lintGutter(), history(), drawSelection(), highlightActiveLine(), bracketMatching(), highlightSelectionMatches(),
   indentUnit.of("    "), EditorState.tabSize.of(4), theme,

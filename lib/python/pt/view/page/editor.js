@@ -1,4 +1,3 @@
-// The editor of kernels and of the scene: CodeMirror with highlighting of GLSL and JSON.
 import {EditorState, EditorView, HighlightStyle, StreamLanguage, basic, setDiagnostics, syntaxHighlighting, tags}
   from "./codemirror.js";
 

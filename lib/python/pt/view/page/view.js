@@ -1,4 +1,3 @@
-// The page. It shows frames from the socket and sends the user's actions.
 import {orbit, pan, turnsAbout, zoom} from "./camera.js";
 import {automaticExposure, curves, layerBytes, toBytes} from "./tone.js";
 
