@@ -70,7 +70,6 @@ inline std::string json_text(const nlohmann::ordered_json &value) {
     return value.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-// JSON has no infinity.
 inline nlohmann::ordered_json number_or_null(double number) {
     return std::isfinite(number) ? nlohmann::ordered_json(number) : nlohmann::ordered_json(nullptr);
 }

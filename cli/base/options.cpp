@@ -75,7 +75,6 @@ std::string_view command_that_reads(std::string_view name) {
                                        : "";
 }
 
-// Empty if all arguments are known.
 std::optional<std::string> unknown_argument(const CLI::App &command) {
     const std::vector<std::string> left_over = command.remaining();
     if (left_over.empty())

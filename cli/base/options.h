@@ -35,7 +35,6 @@ nlohmann::json read_value(const std::string &option, const std::string &text, co
 CLI::Option *add_value(CLI::App &command, const std::string &name, const ValueRule &rule,
                        std::function<void(const nlohmann::json &)> store, const std::string &help);
 
-// target: a number, or an optional number.
 template <typename Number, typename Target>
 CLI::Option *add_number(CLI::App &command, const std::string &name, const ValueRule &rule, Target &target,
                         const std::string &help) {

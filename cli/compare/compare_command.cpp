@@ -42,7 +42,6 @@ bool is_finite(Values pixel) {
     return std::all_of(pixel.begin(), pixel.end(), [](float value) { return std::isfinite(value); });
 }
 
-// Both images must have the same size.
 ImageDifference compare_images(Values image, Values reference) {
     ImageDifference total{};
     for (std::size_t i = 0; i < image.size(); i += 3) {
@@ -96,7 +95,6 @@ void check_outputs(const CompareOptions &options) {
                           : "REFERENCE is required");
 }
 
-// Converts a film to an image with a channel of sample counts.
 DecodedImage read_film_image(const std::string &path) {
     const FilmHandle film(path, read_film_file(path));
     const pt_film_info info = film.info();

@@ -48,7 +48,6 @@ RenderedImage image_of(const FilmHandle &film, const RenderReport &report) {
     return image;
 }
 
-// Two films that differ only in their seeds.
 struct Halves {
     RenderReport report;
     RenderedImage first;

@@ -55,7 +55,6 @@ std::string extensions(const std::function<bool(const ImageFormat &)> &holds, co
 
 std::optional<ImageFormat> format_of_name(std::string_view name);
 
-// The extension may have any case.
 std::optional<ImageFormat> image_format(const std::string &path);
 
 struct ImageTarget {

@@ -71,7 +71,6 @@ std::unique_ptr<FilmHandle> sum_of(const std::vector<std::string> &parts) {
     return sum;
 }
 
-// Returns ascending ranges.
 Ranges united(Ranges ranges) {
     std::sort(ranges.begin(), ranges.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
     Ranges all;
@@ -137,7 +136,6 @@ nlohmann::ordered_json stats_json(const MergeReport &report) {
     return stats;
 }
 
-// Returns for example "8 films of 320x160 pixels: 64 spp, samples [0, 64)".
 std::string summary_text(const MergeReport &report) {
     return concat(counted(report.part_count, "film"), " of ", report.info.columns, "x", report.info.rows,
                   " pixels: ", report.picture.stats.sample_count, " spp, samples ", ranges_text(report.samples));

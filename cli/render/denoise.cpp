@@ -12,7 +12,6 @@
 namespace cli {
 namespace {
 
-// images: first half, second half, albedo, normal.
 pt_error_estimate denoise(const std::string &library, const Rectangle &size, const std::array<const float *, 4> &images,
                           float *to) {
     auto info = sized<pt_denoise_info>();

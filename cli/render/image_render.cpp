@@ -58,7 +58,6 @@ void join(RenderedImage &image, const pt_stats &piece, const pt_error_estimate &
     }
 }
 
-// Returns false if the context has no samples.
 bool add_piece(const Context &context, std::uint32_t rows, RenderedImage &image) {
     const pt_stats stats = context.stats();
     if (stats.sample_count == 0)

@@ -39,7 +39,6 @@ struct PictureLayer {
     // triples: three values per pixel from the library.
     void take(std::span<const float> triples, std::size_t first_pixel);
 
-    // first_row: of the rectangle.
     void read(const Context &context, const Rectangle &part, std::uint32_t first_row, std::uint32_t rows);
 
     // The result refers to this object.

@@ -13,7 +13,6 @@
 
 namespace cli {
 
-// signal: 0 without a signal.
 constexpr int exit_code_of(ExitCode outcome, int signal) {
     if (outcome != ExitCode::done && outcome != ExitCode::signal)
         return static_cast<int>(outcome);

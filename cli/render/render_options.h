@@ -25,7 +25,6 @@ struct FrameRange {
     std::uint32_t last;
 };
 
-// Accepts "0-23" or "5".
 inline std::optional<FrameRange> parse_frames(std::string_view text) {
     const std::size_t dash = text.find('-');
     const auto first = parse_number<std::uint32_t>(text.substr(0, dash));
@@ -103,7 +102,6 @@ struct RenderOptions {
     bool watch = false;
     std::string progress = "auto";
 
-    // Returns PT_QUANTITY_*.
     std::vector<std::uint32_t> wanted_layers() const;
 };
 

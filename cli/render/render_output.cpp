@@ -32,7 +32,6 @@ void write_image(ImageWriter &writer, const ImageTarget &target, const RenderRep
     }
 }
 
-// Reports a failure on stderr and returns false.
 bool succeeds(const std::function<void()> &write) {
     try {
         write();

@@ -45,7 +45,6 @@ struct Part {
     std::vector<std::uint32_t> tile_samples; // as in pt_accumulate_info; empty for a request of the scene
 };
 
-// Empty at the end of the input.
 std::optional<Part> read_part(std::size_t all_tiles) {
     std::array<std::uint32_t, 3> header{};
     if (!read_words(header))

@@ -11,7 +11,6 @@
 
 namespace cli {
 
-// of_library: the library's warning about the view. target_error: 0 for none.
 std::vector<std::string> input_warnings(const SceneFile &scene, const std::optional<BrokenRule> &of_library,
                                         double target_error);
 

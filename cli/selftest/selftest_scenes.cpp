@@ -37,7 +37,6 @@ constexpr double unit_roundoff = 0x1p-24; // float32
 // 50 operations. Vulkan permits an error of 2.5 ulp = 5 roundoffs for the least exact one, division.
 constexpr double sample_rounding = 50 * 5 * unit_roundoff;
 
-// members: parts of the scene without the sizes.
 SceneFile scene_of(std::uint32_t side, std::uint32_t sample_count, const std::string &members) {
     return parse_scene(concat(R"({"film": {"width": )", side, R"(, "height": )", side, R"(}, "render": {"spp": )",
                               sample_count, members, "}"),

@@ -60,7 +60,6 @@ std::vector<float> radiance_of(const DecodedImage &image) {
     return radiance;
 }
 
-// Empty without a channel A, or if the format has no alpha.
 std::vector<float> alpha_of(const DecodedImage &image, const ImageFormat &format) {
     const auto channel = std::find(image.channels.begin(), image.channels.end(), "A");
     if (channel == image.channels.end() || !format.has_alpha)
