@@ -14,7 +14,7 @@ namespace {
 constexpr std::uint32_t first_look = 16; // samples per pixel
 constexpr std::uint32_t usual_samples = 65536;
 
-// With fewer samples rare branches may be untested, although the bits are equal.
+// Equal bits of fewer samples prove little, because rare branches may not have been executed.
 constexpr std::uint32_t least_equal = 256;
 
 class Rendering {

@@ -46,7 +46,7 @@ void require_film(pt_result result, const std::string &path, const pt_context *c
         throw Failure(exit_code_of(result), film_words(path, last_error(context)));
 }
 
-// This level is fast. Files are 6% larger than at level 1.
+// A fast level. Files are 6% larger than at level 1.
 constexpr int compression_level = -1;
 
 // A block of at most 128 KiB takes at least 4 bytes (RFC 8878, 3.1.1.2), so a higher ratio means damage.

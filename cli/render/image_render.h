@@ -89,7 +89,7 @@ private:
     const RenderTask &task_;
     std::uint32_t rows_;
     Stop stop_;
-    WritePreview write_preview_; // empty for halves, and for frames, whose files mark them as done
+    WritePreview write_preview_; // empty for halves, and for frames: an existing file means a finished frame
     Clock::time_point start_ = Clock::now();
     Progress progress_;
     Round round_{};

@@ -52,7 +52,7 @@ class FilmTile:
 
 
 class Film:
-    """The samples of an image as exact sums. Needs neither a device nor the scene.
+    """The samples of an image as exact sums. A film needs neither a device nor the scene.
 
     Films with other samples or pixels of the same picture can be added by + or sum() in any order. The result has the
     bits of one long rendering. Films can be pickled. They are equal if their samples are equal.

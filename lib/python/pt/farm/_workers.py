@@ -13,7 +13,7 @@ from pt.farm._part import Part
 from pt.farm._speed import Speed
 from pt.farm._task import Outcome, fault_of
 
-FETCH_SECONDS = 60.0  # for a film, up to 35 MB at 1920x1080
+FETCH_SECONDS = 60.0  # time limit for fetching a film, up to 35 MB at 1920x1080
 MOST_FETCHED = 16
 
 _fetching = threading.BoundedSemaphore(MOST_FETCHED)

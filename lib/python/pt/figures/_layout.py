@@ -81,7 +81,7 @@ class View:
 
 
 def _shape(extents: Doubles) -> tuple[int, int]:
-    """Multiples of 8 with about PIXELS in all. The ratio is the extents' up to MOST_ASPECT."""
+    """Multiples of 8 with about PIXELS in all. Their ratio follows the extents, up to MOST_ASPECT."""
     aspect = min(max(float(extents[0] / extents[1]), 1.0 / MOST_ASPECT), MOST_ASPECT)
     sides = [8 * math.floor(side / 8.0 + 0.5) for side in (math.sqrt(PIXELS * aspect), math.sqrt(PIXELS / aspect))]
     return sides[0], sides[1]

@@ -10,7 +10,7 @@ from pt.figures._cell import Cell
 
 Array = npt.NDArray[Any]
 
-MOST_COMPARED: Final = 400_000_000  # pairs; about a minute
+MOST_COMPARED: Final = 400_000_000  # pairs, which take about a minute
 MOST_FOUND: Final = 20_000_000
 COMPARED_AT_ONCE: Final = 1 << 21
 SLACK: Final = 1.0 + 2.0**-30  # Rounding must not move a neighbour two cells away.

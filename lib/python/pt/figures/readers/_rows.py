@@ -168,7 +168,7 @@ class Rows:
                 **({"float_precision": "round_trip"} if pandas.__version__ < "3" else {}))  # the default of pandas 3
         except (ValueError, OverflowError):
             return None
-        may_skip = layout.is_table and b'"' not in data  # Blank lines may be skipped.
+        may_skip = layout.is_table and b'"' not in data  # pandas may skip blank lines.
         if frame.shape[1] != width or len(frame) > height or (len(frame) < height and not may_skip):
             return None
         columns: list[Array] = []

@@ -24,7 +24,7 @@ Array = npt.NDArray[Any]
 _ATOMS: Final = frozenset((b"ATOM  ", b"HETATM"))
 _OTHERS: Final = frozenset((b"HEADER", b"EXPDTA", b"SSBOND", b"LINK  ", b"CONECT"))
 _ELEMENT_AND_CHARGE: Final = re.compile(rb"( [A-Za-z]|[A-Za-z][A-Za-z]|[A-Za-z] )( *|[1-9][+-])")
-_DEUTERIUM: Final = 119  # gemmi's number
+_DEUTERIUM: Final = 119  # gemmi's number of the element
 PART: Final = 5000  # most atoms in a part of a chain
 _OTHER_PART: Final = "\x7f"  # suffix for the name of every second part of a chain
 
