@@ -16,8 +16,8 @@ from pt.figures._rods import Rods
 from pt.figures._templates import agreeing, free_ions, known_residues
 
 # O'Boyle et al. 2011, "Open Babel: An open chemical toolbox", Journal of Cheminformatics 3:33: atoms are bonded if their
-# distance is at most the sum of their covalent radii and the tolerance. Below the least distance they are alternative
-# positions of one atom. Angstroms.
+# distance is at most the sum of their covalent radii and the tolerance. Atoms closer than the least distance are
+# alternative positions of one atom. Angstroms.
 TOLERANCE: Final = 0.45
 LEAST_DISTANCE: Final = 0.4
 BALL_SHARE: Final = 0.5  # radius of a ball with sticks, relative to the full radius; by taste

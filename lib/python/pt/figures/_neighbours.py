@@ -59,7 +59,7 @@ def pairs_within(positions: Array, cutoff: float, cell: Cell | None, radii: Arra
 
 
 def _is_first(first: Array, second: Array, steps: Array) -> Array:
-    """Exactly one of a pair and its reverse, which has opposite steps, is first."""
+    """A pair has a reverse with opposite steps. Exactly one of the two is first."""
     ahead = np.sign(steps) @ (9, 3, 1)
     result: Array = (first < second) | ((first == second) & (ahead > 0))
     return result

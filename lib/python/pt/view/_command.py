@@ -59,7 +59,7 @@ def kernels() -> pathlib.Path | None:
 
 
 def is_of_another(path: pathlib.Path) -> bool:
-    """Whether another user owns a folder or the link to it. He could exchange the contents."""
+    """Whether a folder or the link to it belongs to another user, who could replace the contents."""
     return hasattr(os, "geteuid") and any(status.st_uid != os.geteuid() for status in (path.lstat(), path.stat()))
 
 

@@ -20,7 +20,7 @@ from pt.figures.readers._structures import divide_chains, frames_of
 SHARED: Final = 0.4  # angstroms: closer sites share one position
 
 WHOLE: Final = 0.99  # occupancy
-ROUNDED: Final = 1e-4  # fraction of an edge: smaller negative coordinates are rounding errors of 0
+ROUNDED: Final = 1e-4  # fraction of an edge; coordinates this little below 0 are not wrapped
 
 
 def read_cif(lines: Lines) -> Listed:
