@@ -1,8 +1,8 @@
 /** @file
  * pt: samples in the background, while the program does something else.
  *
- * pt_start begins a pt_accumulate and returns at once; pt_poll goes on with it; pt_cancel ends it early. The pattern of
- * polls changes neither the image's bits nor the number of samples at which a target error is reached.
+ * pt_start begins a pt_accumulate and returns at once, pt_poll continues it, and pt_cancel ends it early. The pattern
+ * of polls does not change the result.
  *
  *     result = pt_start(context, &info);
  *     while (result == PT_PENDING) {
@@ -12,20 +12,19 @@
  *     if (result >= 0)
  *         result = pt_readback(context, &image);
  *
- * - Threads: the library starts none. Between calls each device works through at most two submissions
- *   (pt_create_info.submit_milliseconds); only pt_poll gives it more. To keep devices busy, let pt_poll wait for as
- *   long as the program can spare, or make submissions longer than the time between two polls. Any thread may poll, one
- *   at a time, and cancel, also while another one polls.
- * - Samples are under way from a pt_start that returns PT_PENDING to the first pt_poll that returns anything else.
- *   Meanwhile all other calls on the context are refused (PT_ERROR_INVALID_STATE), except pt_cancel,
- *   pt_get_context_device, pt_last_error, pt_get_broken_rule and pt_destroy, which waits for the submissions under way.
- *   To change scene or camera earlier, call pt_cancel, then pt_poll to the end: until the submissions under way and
- *   those that complete a sample of all pixels have ended.
- * - Ownership: pt_start copies its arguments.
- * - Callbacks: info.progress must be NULL, since pt_poll returns the progress. All others run within pt_start and
- *   pt_poll, on their thread.
- * - Failures: whole samples are kept, as by pt_accumulate. A pt_poll that fails has ended the work under way, perhaps
- *   after waiting longer than asked. Any call on the context may follow, unless the device is lost.
+ * - Devices: The library starts no threads. Between calls each device has at most two submissions
+ *   (pt_create_info.submit_milliseconds), and only pt_poll gives it more. To keep devices busy, let pt_poll wait, or
+ *   make submissions longer than the time between two polls.
+ * - Threads: Any thread may poll, one at a time. Any thread may cancel, also while another one polls.
+ * - State: Samples are being taken from a pt_start that returns PT_PENDING to the first pt_poll that does not.
+ *   Meanwhile other calls on the context return PT_ERROR_INVALID_STATE. Exceptions are pt_cancel,
+ *   pt_get_context_device, pt_last_error, pt_get_broken_rule and pt_destroy, which waits for the current submissions.
+ *   To change scene or camera earlier, call pt_cancel and then pt_poll until it does not return PT_PENDING. pt_poll
+ *   first completes the current sample of all pixels.
+ * - Callbacks: info.progress must be NULL, since pt_poll returns the progress. All other callbacks run within pt_start
+ *   and pt_poll.
+ * - Failures: Complete samples are kept, as by pt_accumulate. A pt_poll that fails has ended all submissions, perhaps
+ *   after a longer wait than asked for.
  */
 #ifndef PT_ASYNC_H
 #define PT_ASYNC_H
@@ -36,38 +35,35 @@
 extern "C" {
 #endif
 
-/** Begins to add samples without waiting for them.
+/** Begins to add samples without waiting for them. Copies its arguments.
  *
- * PT_PENDING: samples are under way, to be polled. PT_TARGET_REACHED: the image has the target error already, and
- * nothing is under way. Builds all kernels for the samples (pt_prepare builds most of them ahead). Checks a target
- * error first if the image has a number of samples at which it is checked.
+ * Builds all kernels for the samples (pt_prepare builds most of them ahead). If pt_next_check returns the image's
+ * present number of samples, a target error is checked first.
  *
- * One thread at a time per context. Fails as pt_accumulate does, and with PT_ERROR_INVALID_ARGUMENT if info.progress is
- * not NULL. */
+ * One thread at a time. PT_PENDING: samples are being taken. PT_TARGET_REACHED: the image already has the target error,
+ * and no samples are being taken. Fails as pt_accumulate does. */
 PT_API pt_result pt_start(pt_context *context, const pt_accumulate_info *info);
 
-/** Takes in finished work, gives the devices more, and waits for at most this many nanoseconds.
+/** Collects finished work, gives the devices more, and waits for at most this many nanoseconds.
  *
- * 0: does not wait. UINT64_MAX: waits until all is done. May take longer when a target error is checked, which reads
- * the image. Builds no kernel: a scene that deserves its own (PT_CREATE_NO_SCENE_KERNELS) gets it from the next
- * pt_start.
+ * With UINT64_MAX it waits until all samples are taken. It may take longer when it checks a target error, which reads
+ * the image. It builds no kernel.
  *
- * fraction may be NULL. Otherwise it receives, unless the call fails, the share of the samples that is done, in [0, 1],
- * which never falls.
+ * fraction may be NULL. Otherwise it receives the finished part of the samples, in [0, 1], which never falls.
  *
- * One thread at a time per context. PT_PENDING: samples are still under way. Every other result ends what pt_start
- * began, except a refusal (in a callback, or while another thread is in a call). PT_OK: all samples are taken.
- * PT_TARGET_REACHED: fewer were enough. PT_CANCELLED: pt_cancel was called; fewer samples are taken, all of them whole.
- * PT_ERROR_INVALID_STATE: nothing is under way. PT_ERROR_OUT_OF_DEVICE_MEMORY, PT_ERROR_SHADER, PT_ERROR_DEVICE_LOST:
- * the driver said so. */
+ * One thread at a time. PT_PENDING: samples are still being taken. PT_OK: all samples are taken. PT_TARGET_REACHED:
+ * fewer were enough. PT_CANCELLED: pt_cancel was called; fewer samples are taken, all of them complete.
+ * PT_ERROR_INVALID_STATE: no samples are being taken. Every result except PT_PENDING ends what pt_start began, unless
+ * the call was refused (in a callback, or while another thread was in a call). */
 PT_API pt_result pt_poll(pt_context *context, uint64_t nanoseconds, double *fraction);
 
-/** Asks for no more samples, and returns at once. pt_poll then ends what pt_start began, and a pt_accumulate under way
- * ends as if pt_progress_fn had asked to stop: with PT_CANCELLED, or with PT_OK if no sample was left to begin. A
- * second call does nothing more.
+/** Asks for no more samples, and returns at once.
+ *
+ * pt_poll then ends what pt_start began. A running pt_accumulate ends as if pt_progress_fn had asked to stop: with
+ * PT_CANCELLED, or with PT_OK if no sample was left to begin.
  *
  * Any thread, at any time before pt_destroy, also in callbacks and while another thread is in a call on the context.
- * PT_ERROR_INVALID_STATE: nothing is under way, as when another thread has just polled to the end. */
+ * PT_ERROR_INVALID_STATE: no samples are being taken. */
 PT_API pt_result pt_cancel(pt_context *context);
 
 #ifdef __cplusplus

@@ -15,8 +15,8 @@ enum {
     PT_FEATURE_GLOSS = 2,  /**< specular lobes */
     PT_FEATURE_MOTION = 4, /**< spheres that move while the shutter is open */
     PT_FEATURE_LARGE = 8,  /**< more surfaces than a uniform buffer holds, or a tree */
-    /** 113 spheres or more: they are in a tree, so that a ray tests only those near its way. Their centres are held to
-     * 2^-30 of the extent of the spheres in the tree, their colors to a thousandth. */
+    /** a tree over the spheres, from 113 spheres on. It stores centers to 2^-30 of the extent of its spheres, colors to
+     * a thousandth. */
     PT_FEATURE_TREE = 16,
     PT_FEATURE_ORTHOGRAPHIC = 32, /**< parallel camera rays */
     PT_FEATURE_HIDDEN = 64,       /**< surfaces that the camera does not see */
@@ -27,47 +27,51 @@ enum {
 
 /** Statistics of a context or a film. */
 typedef struct pt_stats {
-    uint32_t struct_size;      /**< sizeof(pt_stats); must be set by the caller */
-    uint32_t sample_count;     /**< whole samples in every pixel; if they differ, the fewest */
+    uint32_t struct_size;      /**< sizeof(pt_stats) */
+    uint32_t sample_count;     /**< complete samples of every pixel; the fewest if pixels differ */
     uint64_t rejected_samples; /**< samples left out, over all pixels: NaN, infinite, negative or too bright */
     uint64_t device_bytes;     /**< memory that the context has allocated on all its devices now */
     uint64_t submit_count;     /**< submissions that took samples since pt_create, to all devices */
-    double device_seconds;     /**< their total time; with pt_poll, as far as it saw them end */
+    double device_seconds;     /**< total time of these submissions; pt_poll adds it when it sees them end */
     uint32_t features;         /**< PT_FEATURE_*; 0 before the first pt_accumulate */
     uint32_t device_count;     /**< devices that share the samples */
-    uint32_t max_sample_count; /**< the most that a pixel has (PT_SAMPLING_ADAPTIVE) */
+    uint32_t max_sample_count; /**< most samples of a pixel (PT_SAMPLING_ADAPTIVE) */
     uint32_t reserved;         /**< 0 */
     double mean_sample_count;  /**< mean over all pixels */
 } pt_stats;
 
-/** Bits of pt_error_estimate.uncertain: why a stated error may be far off. The bounds are then wider by a further
- * factor of two, except that small lamps in view only raise the error and its upper bound. More samples make an error
- * certain. */
+/** Bits of pt_error_estimate.uncertain: why a stated error may be far off.
+ *
+ * The bounds are then wider by a factor of two. Small lamps in view are an exception: they raise only the error and its
+ * upper bound. More samples make an error certain. */
 enum {
     PT_UNCERTAIN_RMSE = 1, /**< rmse comes from fewer than 4 pixels: rare bright samples, or a small lamp */
-    /** relative_rmse comes from fewer than 4 pixels, or from light that single samples have met and that may be so rare
-     * that the square is three times as large */
+    /** relative_rmse comes from fewer than 4 pixels, or from light that only single samples have found. Such light may
+     * be so rare that the square is three times as large. */
     PT_UNCERTAIN_RELATIVE_RMSE = 2,
-    /** More than a fifth of the square of relative_rmse is expected from dark pixels beside very bright ones, as light
-     * that no sample has met. */
+    /** more than a fifth of the square of relative_rmse is expected from dark pixels beside very bright ones, as light
+     * that no sample has found. */
     PT_UNCERTAIN_UNSEEN = 4,
-    /** Either lamps in view that less than half of a pixel's samples meet, since they are small, move, are out of focus
-     * or shine through translucent spheres: by their sizes they add more than the samples show, and fewer than 6
-     * samples are expected to have met them. Or lamps found by chance (uniform, cosine, bsdf), or lobes (uniform,
-     * cosine): one that matters was met fewer than a thousand times in all pixels. */
+    /** samples may have missed lamps. There are two reasons.
+     * - Less than half of a pixel's samples hit a lamp in view, because it is small, moves, is out of focus or shines
+     *   through translucent spheres. By their sizes such lamps add more than the samples show, and fewer than 6 samples
+     *   are expected to have hit them.
+     * - Lamps (uniform, cosine, bsdf) or lobes (uniform, cosine) are found by chance, and fewer than a thousand samples
+     *   in all pixels have hit one that matters. */
     PT_UNCERTAIN_UNMET = 8
 };
 
 /** The image's error, estimated without a reference (shaders/README.md, section 11).
  *
- * rmse is the root of the mean of (x - r)^2 over pixels and channels, for the image x and its limit r; relative_rmse is
- * the same for (x - r)^2 / (r^2 + 0.01). Bounds have 95% confidence. Light that no sample has met yet is not included,
- * except small lamps in view. Nothing is known with fewer than 16 samples, or if more than one sample in 2^20 was left
- * out, since these may have carried as much light as all others: then the lower bounds are 0, the other values
- * INFINITY. */
+ * With the image x and its limit r, rmse is the root of the mean of (x - r)^2 over pixels and channels, and
+ * relative_rmse the root of the mean of (x - r)^2 / (r^2 + 0.01). Bounds have 95% confidence. Light that no sample has
+ * found is not included, except small lamps in view.
+ *
+ * With fewer than 16 samples, or if more than one sample in 2^20 was left out, nothing is known: lower bounds are 0,
+ * the other values INFINITY. */
 typedef struct pt_error_estimate {
-    uint32_t struct_size;      /**< sizeof(pt_error_estimate); must be set by the caller */
-    uint32_t uncertain;        /**< PT_UNCERTAIN_*: how far the error can be known; 0 with fewer than 16 samples */
+    uint32_t struct_size;      /**< sizeof(pt_error_estimate) */
+    uint32_t uncertain;        /**< PT_UNCERTAIN_*; 0 with fewer than 16 samples */
     double rmse;               /**< root mean square error, in units of radiance */
     double rmse_low;           /**< lower bound of rmse */
     double rmse_high;          /**< upper bound of rmse */
@@ -76,24 +80,21 @@ typedef struct pt_error_estimate {
     double relative_rmse_high; /**< upper bound of relative_rmse */
 } pt_error_estimate;
 
-/** Returns the next number of samples, above sample_count, at which a target error is checked while all pixels have
- * equally many: 16, 20, 24, 28, 32, 40, 48, 56, 64, 80, ..., in steps of a quarter of a power of two; UINT32_MAX
- * beyond the last. Any thread; never fails. */
+/** Returns the next number of samples, above sample_count, at which a target error is checked if all pixels have
+ * equally many: 16, 20, 24, 28, 32, 40, 48, 56, 64, 80, ..., in steps of a quarter of a power of two. UINT32_MAX if
+ * there is no next one. Any thread; never fails. */
 PT_API uint32_t pt_next_check(uint32_t sample_count);
 
-/** Writes the statistics. Works for a lost device too; refused while samples are under way (pt/async.h).
+/** Writes the statistics, also of a lost device.
  *
- * The first call after samples were taken reads 8 bytes a pixel for rejected_samples, unless pt_get_error_estimate has
- * counted them. stats->struct_size must be set; no more bytes than that are written. One thread at a time per context.
- * PT_ERROR_DEVICE_LOST: the device was lost while its samples were read. */
+ * The first call after new samples reads 8 bytes a pixel for rejected_samples, unless pt_get_error_estimate has counted
+ * them. One thread at a time. */
 PT_API pt_result pt_get_stats(pt_context *context, pt_stats *stats);
 
-/** Estimates the image's error. The first call after samples were taken examines the whole image, which takes about as
- * long as reading it; further calls repeat its result.
+/** Estimates the image's error.
  *
- * error->struct_size must be set, as for pt_get_stats; refused while samples are under way. Without render settings, or
- * with a lost device, nothing is known. One thread at a time per context. PT_ERROR_DEVICE_LOST: the device was lost
- * while its samples were read. */
+ * The first call after new samples examines the whole image, which takes about as long as reading it. Further calls
+ * repeat the result. Without render settings, or with a lost device, nothing is known. One thread at a time. */
 PT_API pt_result pt_get_error_estimate(pt_context *context, pt_error_estimate *error);
 
 #ifdef __cplusplus

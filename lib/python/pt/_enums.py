@@ -12,12 +12,12 @@ class Quantity(enum.IntEnum):
 
     RADIANCE = 0  # mean of the samples
     STANDARD_ERROR = 1
-    SAMPLE_COUNT = 2  # the pixel's samples, rounded to float32, the same in all channels
+    SAMPLE_COUNT = 2  # number of the pixel's samples, rounded to float32, the same in all channels
     DEPTH = 3  # depth along the viewing direction
     NORMAL = 4  # unit normal in world coordinates, on the side of the camera
     ALBEDO = 5  # diffuse + specular, each component at most 1
     OBJECT = 6  # index of the surface of PT_QUANTITY_DEPTH
-    COVERAGE = 7  # share of the pixel's samples whose camera rays meet a surface, the same in all channels
+    COVERAGE = 7  # fraction of the pixel's samples whose camera rays hit a surface, the same in all channels
 
 
 class Format(enum.IntEnum):
@@ -32,43 +32,43 @@ class Format(enum.IntEnum):
 class MaterialFlag(enum.IntFlag):
     """Further properties of a material."""
 
-    HIDDEN_FROM_CAMERA = 1  # Camera rays pass through surfaces of the material
+    HIDDEN_FROM_CAMERA = 1  # camera rays pass through surfaces of the material
 
 
 class Projection(enum.IntEnum):
     """The projection of a camera."""
 
-    PERSPECTIVE = 0  # a pinhole
-    ORTHOGRAPHIC = 1
+    PERSPECTIVE = 0  # all rays start at position (a pinhole), or on a lens (pt_camera.aperture)
+    ORTHOGRAPHIC = 1  # parallel rays along the viewing direction
 
 
 class Estimator(enum.IntEnum):
     """The method that finds light. All converge to the same image, with different noise and time."""
 
-    BEST = 0  # what this version considers best
+    BEST = 0  # the best one in this version
     UNIFORM = 1  # directions uniform on the hemisphere
     COSINE = 2  # directions in proportion to the cosine to the normal
     BSDF = 3  # directions by the material, cosine and specular lobe
     LIGHT = 4  # lamps sampled by solid angle
-    MIS = 5  # lamps sampled by solid angle and directions as bsdf, combined by weights
+    MIS = 5  # lamps sampled by solid angle and directions as in bsdf, combined by weights
 
 
 class Sampler(enum.IntEnum):
     """The source of a sample's numbers. All converge to the same image, at different rates."""
 
-    BEST = 0  # what this version considers best
+    BEST = 0  # the best one in this version
     RANDOM = 1  # independent random numbers
     HALTON = 2  # radical inverses in prime bases, the same points in every pixel
-    HALTON_CP = 3  # the same, rotated by a random offset per pixel and dimension (Cranley, Patterson)
+    HALTON_CP = 3  # Halton points, rotated at random per pixel and dimension (Cranley, Patterson)
     SOBOL = 4  # Sobol points, Owen-scrambled per pixel and dimension
 
 
 class Sampling(enum.IntEnum):
     """The distribution of samples. All converge to the same image."""
 
-    BEST = 0  # adaptive with a target error, else uniform
-    UNIFORM = 1  # to all pixels alike
-    ADAPTIVE = 2  # where they reduce the error most
+    BEST = 0  # adaptive with a target error, otherwise uniform
+    UNIFORM = 1  # the same number in all pixels
+    ADAPTIVE = 2  # more samples where they reduce the error most
 
 
 class ColumnType(enum.IntEnum):
@@ -92,7 +92,7 @@ class CreateFlag(enum.IntFlag):
     """Options of a context; see Context."""
 
     VALIDATION = 1  # the Khronos validation layer reports to log
-    NO_SCENE_KERNELS = 2  # No kernels with a scene's numbers as constants, so nothing is built when the camera moves
+    NO_SCENE_KERNELS = 2  # no kernels with a scene's numbers as constants
 
 
 class DeviceKind(enum.IntEnum):
@@ -100,8 +100,8 @@ class DeviceKind(enum.IntEnum):
 
     OTHER = 0  # none of the others
     INTEGRATED_GPU = 1  # shares the memory of the machine
-    DISCRETE_GPU = 2  # has memory of its own
-    VIRTUAL_GPU = 3  # a virtual machine's
+    DISCRETE_GPU = 2  # has its own memory
+    VIRTUAL_GPU = 3  # the GPU of a virtual machine
     CPU = 4  # a driver that runs kernels on the CPU
 
 
@@ -112,7 +112,7 @@ class Feature(enum.IntFlag):
     GLOSS = 2  # specular lobes
     MOTION = 4  # spheres that move while the shutter is open
     LARGE = 8  # more surfaces than a uniform buffer holds, or a tree
-    TREE = 16  # 113 spheres or more
+    TREE = 16  # a tree over the spheres, from 113 spheres on
     ORTHOGRAPHIC = 32  # parallel camera rays
     HIDDEN = 64  # surfaces that the camera does not see
     LENS = 128  # camera rays start on a lens
@@ -124,7 +124,7 @@ class Light(enum.IntEnum):
     """The result of a comparison of two images."""
 
     EQUAL_BITS = 1  # all numbers are equal
-    SAME = 2  # no difference beyond noise, and min_change would have been found
+    SAME = 2  # no difference beyond noise
     DIFFERENT = 3  # the light differs in some region
     UNDECIDED = 4  # no difference beyond noise, but a change of min_change may have been missed
 
@@ -135,23 +135,23 @@ class Uncertain(enum.IntFlag):
     RMSE = 1  # rmse comes from fewer than 4 pixels
     RELATIVE_RMSE = 2
     UNSEEN = 4
-    UNMET = 8
+    UNMET = 8  # samples may have missed lamps
 
 
 class Result(enum.IntEnum):
     """The result of a call. Errors are raised (see Error), so calls return one of the first four."""
 
     OK = 0  # done
-    CANCELLED = 1  # the caller asked to stop
+    CANCELLED = 1  # the caller stopped the call
     TARGET_REACHED = 2  # the target error was reached before all samples were taken
-    PENDING = 3  # samples are under way, see pt/async.h
+    PENDING = 3  # samples are being taken, see pt/async.h
     ERROR_INVALID_ARGUMENT = -1  # a field, size or pointer breaks a rule of this header
     ERROR_INVALID_SCENE = -2  # a scene breaks a rule
-    ERROR_INVALID_STATE = -3  # something must be set or end first, or another call is under way
-    ERROR_UNSUPPORTED = -4  # valid, but beyond this device, driver or library
-    ERROR_NO_DEVICE = -5  # no Vulkan driver, or no device fits
-    ERROR_OUT_OF_HOST_MEMORY = -6  # the machine has too little memory left
-    ERROR_OUT_OF_DEVICE_MEMORY = -7  # the device has too little memory left, for this image for instance
+    ERROR_INVALID_STATE = -3  # another call must come first or must end first
+    ERROR_UNSUPPORTED = -4  # valid, but this device, driver or library cannot do it
+    ERROR_NO_DEVICE = -5  # no Vulkan driver or no suitable device
+    ERROR_OUT_OF_HOST_MEMORY = -6  # the machine has too little free memory
+    ERROR_OUT_OF_DEVICE_MEMORY = -7  # the device has too little free memory, for instance for this image
     ERROR_DEVICE_LOST = -8  # the device or its driver gave up
     ERROR_SHADER = -9  # the driver refused to build the kernel, or its GLSL does not compile
     ERROR_INTERNAL = -10  # a bug in this library or in the driver
