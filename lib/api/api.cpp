@@ -1,4 +1,4 @@
-// The C boundary: null checks, struct sizes, the end of exceptions.
+// The C functions: they check pointers and struct sizes, and turn exceptions into results.
 #include "lib/api/context.h"
 #include "lib/api/guard.h"
 #include "lib/base/error.h"
@@ -27,8 +27,8 @@ namespace pt {
 
 namespace {
 
-// This thread's last refused call: another call was running, or the context belongs to another process. The context's
-// own error belongs to the running call.
+// This thread's last refused call. A call is refused if another call is running, or if the context belongs to another
+// process. The refusal cannot be stored in the context, whose error belongs to the running call.
 struct Refusal {
     const pt_context *context = nullptr;
     const char *message = nullptr;
@@ -40,7 +40,7 @@ struct Refusal {
 };
 thread_local Refusal refusal;
 
-// For calls allowed at any time. A refused call touches nothing of the context.
+// Runs a call that is also allowed while samples are being taken. A refused call does not touch the context.
 template <typename Call>
 pt_result guard_any_time(pt_context *context, Call &&call) noexcept {
     if (!context)
@@ -52,12 +52,12 @@ pt_result guard_any_time(pt_context *context, Call &&call) noexcept {
     refusal.forget(context);
     const pt_result result = guard(context->last_error, [&] { return call(context->renderer); });
     if (result < PT_OK)
-        refusal.forget(context); // newer than a refusal from a callback meanwhile
+        refusal.forget(context); // a callback of this call may have been refused
     context->in_use.release();
     return result;
 }
 
-// For calls refused while samples are running (pt/async.h).
+// Runs a call that is refused while samples are being taken (pt/async.h).
 template <typename Call>
 pt_result guard_context(pt_context *context, Call &&call) noexcept {
     return guard_any_time(context, [&](Renderer &renderer) {
@@ -99,8 +99,8 @@ pt_accumulate_info validated_accumulate(const pt_accumulate_info *info, bool may
     return accumulate;
 }
 
-// A context in use cannot be freed, so pt_destroy only logs; once, because the log function may call it. Silent in a
-// forked child, where a vanished thread may hold the log's lock.
+// Logs that a context in use was not freed. It logs once, because the log function may call pt_destroy itself. It logs
+// nothing in a forked child, where a thread that no longer exists may hold the log's lock.
 void refuse_to_destroy(pt_context &context, const char *reason) noexcept {
     const bool told = refusal.context == &context || context.in_use.not_of_this_process();
     refusal = {&context, reason};
@@ -110,8 +110,8 @@ void refuse_to_destroy(pt_context &context, const char *reason) noexcept {
         });
 }
 
-// Calls read() with the error of pt_last_error, or with NULL and a fixed message if this thread was refused or may not
-// see it.
+// Calls read() with the last error. If this thread was refused or may not see that error, calls read() with NULL and a
+// fixed message.
 template <typename Read>
 auto read_last_error(const pt_context *context, Read &&read) noexcept {
     if (!context)
@@ -198,7 +198,7 @@ void pt_destroy(pt_context *context) {
     }
     pt::refusal.forget(context);
     const pt::DefaultRounding rounding;
-    delete context; // still in use, so calls from its callbacks are refused
+    delete context; // The context is still in use, so calls from its callbacks are refused.
 }
 
 pt_result pt_get_context_device(pt_context *context, pt_device_info *device) {
@@ -260,7 +260,7 @@ pt_result pt_poll(pt_context *context, uint64_t nanoseconds, double *fraction) {
     });
 }
 
-// May run during another call, so it touches nothing else of the context.
+// Other threads may be in a call, so this touches only in_use and the request to cancel.
 pt_result pt_cancel(pt_context *context) {
     if (!context)
         return pt::guard(pt::thread_last_error, [] { pt::require_not_null(nullptr, "context"); });
@@ -278,7 +278,7 @@ pt_result pt_cancel(pt_context *context) {
 pt_result pt_readback(pt_context *context, const pt_image *image) {
     return pt::guard_context(context, [&](pt::Renderer &renderer) {
         const pt_image target = pt::copy_in(image, "image");
-        // Without pt_set_render there is no size to check; the renderer refuses.
+        // Without pt_set_render there is no size to check, and the renderer refuses the call.
         const bool sized = renderer.width() > 0;
         renderer.readback(
             sized ? pt::validated_image(target, renderer.width(), renderer.row_count(), pt::ImageSource::Context)
@@ -302,7 +302,7 @@ pt_result pt_map_image(pt_context *context, const pt_image *image, void **data, 
 pt_result pt_readback_to_buffer(pt_context *context, const pt_buffer_image *image) {
     return pt::guard_context(context, [&](pt::Renderer &renderer) {
         const pt_buffer_image target = pt::copy_in(image, "image");
-        // Without a lent device no field matters.
+        // Without a lent device the renderer refuses the call, so no field matters.
         const bool sized = renderer.is_on_lent_device() && renderer.width() > 0;
         renderer.readback(sized ? pt::validated_image(target, renderer.width(), renderer.row_count())
                                 : pt::BufferImage{});
@@ -335,7 +335,7 @@ pt_result pt_get_stats(pt_context *context, pt_stats *stats) {
 
 pt_result pt_get_warning(pt_context *context, pt_broken_rule *warning) {
     return pt::guard_context(context, [&](pt::Renderer &renderer) {
-        pt::struct_size_of(warning, "warning"); // before the work
+        pt::struct_size_of(warning, "warning"); // checked before the work
         const pt::BrokenRule *rule = renderer.warning();
         pt::copy_out(rule ? pt::shown(*rule) : pt_broken_rule{}, warning, "warning");
     });
@@ -343,7 +343,7 @@ pt_result pt_get_warning(pt_context *context, pt_broken_rule *warning) {
 
 pt_result pt_get_error_estimate(pt_context *context, pt_error_estimate *error) {
     return pt::guard_context(context, [&](pt::Renderer &renderer) {
-        pt::struct_size_of(error, "error"); // before the work
+        pt::struct_size_of(error, "error"); // checked before the work
         pt::copy_out(pt::stated(renderer.error_with_lamps()), error, "error");
     });
 }

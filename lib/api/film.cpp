@@ -1,4 +1,4 @@
-// The C boundary of films without a context; see api.cpp.
+// The C functions of films without a context, like those in api.cpp.
 #include "lib/film/film.h"
 
 #include "lib/api/context.h"
@@ -54,7 +54,7 @@ void write_nothing(const Image &image) {
 
 void write_image(const Film &film, const Image &image) {
     const ImageLayout &layout = image.layout;
-    Rectangle pixels = layout.pixels; // of the image
+    Rectangle pixels = layout.pixels; // becomes the same rectangle in coordinates of the image
     pixels.x += film.bounds().x;
     pixels.y += film.bounds().y;
     write_nothing(image);
@@ -75,7 +75,7 @@ pt_stats stats_of(const Film &film) {
     return stats;
 }
 
-// Writes all tiles' goals; tiles without a step keep their samples.
+// Writes the goals of all tiles. A tile outside the next step keeps its number of samples.
 pt_result write_plan(Film &film, double target_error, std::uint32_t most, std::uint32_t *goals, std::uint32_t &count) {
     const std::size_t tile_count = film.tile_count();
     if (!goals) {
@@ -124,7 +124,7 @@ pt_film_info info_of(const Film &film) {
             .device = facts.device.c_str()};
 }
 
-// The film may be const.
+// Handle is pt_film or const pt_film.
 template <typename Handle, typename Call>
 pt_result guard_film(Handle *film, Call &&call) noexcept {
     return guard(thread_last_error, [&] {
@@ -222,7 +222,7 @@ pt_result pt_get_film_stats(const pt_film *film, pt_stats *stats) {
 
 pt_result pt_get_film_error_estimate(const pt_film *film, pt_error_estimate *error) {
     return pt::guard_film(film, [&](const pt::Film &opened) {
-        pt::struct_size_of(error, "error"); // before the work
+        pt::struct_size_of(error, "error"); // checked before the work
         pt::copy_out(pt::stated(opened.error()), error, "error");
     });
 }

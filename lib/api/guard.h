@@ -17,11 +17,11 @@ namespace pt {
 
 class LastError {
 public:
-    // Without memory, a fixed message without rules replaces the given one.
+    // If there is no memory for the message, a fixed one without rules takes its place.
     void store(std::string_view message, std::shared_ptr<const Violations> broken_rules = nullptr) noexcept {
         try {
             const std::string shown = platform::printable_lines(message);
-            text_ = std::string_view(shown); // copies, which keeps memory for later messages
+            text_ = std::string_view(shown); // Copying into text_ keeps its memory for later messages.
             shown_ = nullptr;
             broken_rules_ = std::move(broken_rules);
         } catch (...) {
@@ -32,16 +32,15 @@ public:
 
     const char *c_str() const noexcept { return shown_ ? shown_ : text_.c_str(); }
 
-    // NULL if the message concerns no rule.
     const Violations *broken_rules() const noexcept { return broken_rules_.get(); }
 
 private:
     std::string text_;
-    const char *shown_ = nullptr; // replaces text_ unless NULL
+    const char *shown_ = nullptr; // NULL, or the message in place of text_
     std::shared_ptr<const Violations> broken_rules_;
 };
 
-// The pt_result of the current exception. Not inline, because every C call uses it.
+// Stores the current exception and returns its pt_result. Not inlined, because every C call uses it.
 [[gnu::noinline]] inline pt_result failure(LastError &last_error) noexcept {
     const auto failed = [&](pt_result code, std::string_view message) {
         last_error.store(message);
@@ -61,7 +60,7 @@ private:
     }
 }
 
-// Rounds to nearest in this scope. Threads started meanwhile, such as a driver's, inherit it.
+// Rounds to nearest in its scope. Threads that a driver starts meanwhile inherit the mode.
 class DefaultRounding {
 public:
     DefaultRounding() noexcept : callers_(std::fegetround()) { set(FE_TONEAREST); }
@@ -70,7 +69,7 @@ public:
     DefaultRounding &operator=(const DefaultRounding &) = delete;
 
 private:
-    // Reading the mode is cheap, setting it is not.
+    // Reading the rounding mode is much cheaper than setting it.
     void set(int mode) const noexcept {
         if (callers_ != FE_TONEAREST)
             std::fesetround(mode);
@@ -79,8 +78,8 @@ private:
     int callers_;
 };
 
-// Runs the body of a C call, which returns a pt_result or nothing (PT_OK), or throws. Callers may be written in C, so a
-// callback's exception becomes PT_ERROR_INTERNAL with its message.
+// Runs the body of a C call. The body returns a pt_result or void (PT_OK), or throws. Exceptions of callbacks end here
+// too, because the caller may be written in C.
 template <typename Call>
 pt_result guard(LastError &last_error, Call &&call) noexcept {
     const DefaultRounding rounding;

@@ -1,5 +1,5 @@
-// Records which thread has a call running on a context, because film and Vulkan allow one, and which process owns it,
-// because a forked child lacks the driver's threads.
+// Records which thread is in a call on a context, because only one may be, and which process made the context, because
+// a forked child lacks the driver's threads.
 #pragma once
 
 #include "lib/platform/process.h"
@@ -11,11 +11,11 @@ namespace pt {
 
 class InUse {
 public:
-    // Takes the context for a call of this thread. Returns NULL, or the reason for a refusal.
+    // Marks the context as used by this thread. Returns NULL, or the reason for a refusal.
     const char *take() noexcept {
         if (const char *reason = not_of_this_process())
             return reason;
-        std::thread::id user; // nobody
+        std::thread::id user; // of no thread
         if (user_.compare_exchange_strong(user, std::this_thread::get_id(), std::memory_order_acquire))
             return nullptr;
         return user == std::this_thread::get_id() ? "called from a callback of its own context"
@@ -26,10 +26,10 @@ public:
 
     bool by_this_thread() const noexcept {
         return user_.load(std::memory_order_relaxed) ==
-               std::this_thread::get_id(); // relaxed: only this thread can make it equal
+               std::this_thread::get_id(); // memory_order_relaxed suffices: only this thread stores its id
     }
 
-    // The reason why no call of this process may touch the context, or NULL. Thread-safe.
+    // Why calls of this process must not touch the context, or NULL. Thread-safe.
     const char *not_of_this_process() const noexcept {
         return platform::process_number() == process_
                    ? nullptr

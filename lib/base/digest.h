@@ -1,4 +1,4 @@
-// XXH3 digests, which detect changes, not forgeries.
+// XXH3 digests. They detect accidental changes, but not forgeries.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -28,10 +28,10 @@ public:
 
     void add_bytes(std::span<const std::byte> bytes);
 
-    // After calls of add_bytes alone, the XXH3 of the concatenated bytes.
+    // The XXH3 of the concatenated bytes, if only add_bytes was called.
     std::uint64_t checksum() const;
 
-    // 32 hexadecimal digits.
+    // Returns 32 hexadecimal digits.
     std::string text() const;
 
 private:

@@ -1,4 +1,4 @@
-// The library's only exception, caught by guard.h alone.
+// The library's own exception. Only guard.h catches it.
 #pragma once
 
 #include <pt/pt.h>
@@ -12,7 +12,6 @@
 
 namespace pt {
 
-// A pt_broken_rule.
 struct BrokenRule {
     std::string subject;
     std::int64_t index = -1;
@@ -26,14 +25,13 @@ struct BrokenRule {
     std::string text() const;
 };
 
-// Rules broken by one call, perhaps millions: the first ones in full, and the number.
+// The rules that one call broke. There may be millions: the first ones are kept, all are counted.
 class Violations {
 public:
     static constexpr std::size_t most_kept = 8;
 
     void add(BrokenRule rule);
 
-    // Whether further rules are only counted.
     bool only_count() const { return first_.size() == most_kept; }
     void count_one() { ++count_; }
 
@@ -59,7 +57,7 @@ public:
 
     pt_result code() const { return code_; }
 
-    // NULL if the error concerns no rule. Shared, so that copies allocate nothing.
+    // NULL if the error concerns no rule. Shared, so that copying the exception allocates nothing.
     const std::shared_ptr<const Violations> &broken_rules() const { return broken_rules_; }
 
 private:

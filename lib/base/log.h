@@ -14,7 +14,8 @@ struct Log {
     pt_log_fn function = nullptr;
     void *user = nullptr;
 
-    // Passes a message on line by line. Never throws, because drivers call it; drops lines that cannot be delivered.
+    // Passes the lines of a message to the function. Never throws, because drivers call it: the rest of the message is
+    // lost.
     void write(int32_t level, const std::string &message) const noexcept {
         if (!function)
             return;
@@ -29,7 +30,7 @@ struct Log {
         }
     }
 
-    // Calls message() only if there is a log function. Drops it if memory lacks.
+    // Calls message() only if there is a log function.
     template <typename Message>
     void info(Message &&message) const noexcept {
         if (!function)

@@ -1,5 +1,6 @@
-// Unpacks embedded SPIR-V (cmake/SpirvToHeader.cmake): hexadecimal digits, two per byte, the low one first. A word is
-// its number of digits, 0 to 8, and the digits; or a digit 9 to 15 for one of seven frequent words.
+// Unpacks embedded SPIR-V (cmake/SpirvToHeader.cmake). The bytes hold hexadecimal digits, two per byte, the low one
+// first. A word begins with a digit n. Up to 8, n digits of the word follow. A digit from 9 on stands for one of seven
+// frequent words.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Rules of the caller's numbers.
+// Checks numbers of the caller.
 #pragma once
 
 #include "lib/base/error.h"
@@ -16,7 +16,7 @@
 
 namespace pt {
 
-// The shortest decimal that reads back as the same number.
+// Returns the shortest decimal that reads back as the same number.
 std::string number_text(std::integral auto value) {
     return std::to_string(value);
 }
@@ -34,7 +34,7 @@ std::string number_text(const glm::vec<3, Number> &value) {
     return '(' + number_text(value.x) + ", " + number_text(value.y) + ", " + number_text(value.z) + ')';
 }
 
-// Returns the broken rule, or nullptr.
+// Returns the rule that the value breaks, or nullptr.
 using Rule = const char *(*)(double value);
 
 inline const char *finite_rule(double value) {
@@ -44,8 +44,8 @@ inline const char *finite_rule(double value) {
 constexpr double min_length = 1e-18;
 constexpr double max_length = 1e18;
 
-// Squares of lengths must be normal in float32 (1e-36 > 2^-126) and squared distances finite (3 * (3e18)^2 = 2.7e37 <
-// 2^128, for components center + motion - position).
+// float32 must hold squares of lengths as normal numbers (1e-36 > 2^-126), and squared distances as finite ones: a
+// component center + motion - position is at most 3e18, and 3 * (3e18)^2 = 2.7e37 < 2^128.
 constexpr bool is_positive_length(double value) {
     return value >= min_length && value <= max_length;
 }
@@ -78,7 +78,7 @@ inline const char *share_rule(double value) {
     return is_share(value) ? nullptr : "must lie in [0, 1]";
 }
 
-// A field; or the first of several that make the value, and the rest of the message: {"width", "* height"}.
+// The field of a value, or for a product its first field and the rest of the message: {"width", "* height"}.
 struct Member {
     Member(const char *field, const char *others = "") : name(field), with(others) {} // implicit
 
@@ -86,7 +86,7 @@ struct Member {
     const char *with;
 };
 
-// The checked struct: "camera" or "spheres[3]".
+// The struct that is checked, named "camera" or "spheres[3]" in messages.
 class Subject {
 public:
     Subject(Violations &violations, const char *name) : violations_(violations), name_(name) {}
@@ -111,7 +111,7 @@ public:
             refuse(member, number_text(value), broken);
     }
 
-    // Refuses an element of a column; most of many millions are only counted.
+    // Refuses an element of a column. Millions may be refused, so only those that are kept get a text.
     template <typename Value>
     void refuse_element(const Member &member, std::size_t element, const Value &value, std::string_view rule) const {
         if (violations_.only_count())

@@ -1,4 +1,4 @@
-// Keeps squared lengths within double's range.
+// Vectors scaled so that their squared lengths stay within double's range.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -12,7 +12,8 @@ inline glm::dvec3 vector(const double (&components)[3]) {
     return {components[0], components[1], components[2]};
 }
 
-// v * 2^-exponent with its largest component in [1/2, 1). Exact, except components below 2^-1000 of the largest.
+// v = vector * 2^exponent, with the largest component of vector in [1/2, 1). Only components below 2^-1000 of the
+// largest are rounded.
 struct ScaledVector {
     glm::dvec3 vector;
     int exponent;
@@ -25,7 +26,7 @@ inline ScaledVector scaled(const glm::dvec3 &v) {
     return {{std::ldexp(v.x, -exponent), std::ldexp(v.y, -exponent), std::ldexp(v.z, -exponent)}, exponent};
 }
 
-// v / |v| for finite v != 0. Multiplying by 1 / |v| would round twice, and axes would not stay exact.
+// Returns v / |v| for finite v != 0. Multiplying by 1 / |v| would round twice, so that axes would not stay exact.
 inline glm::dvec3 unit_vector(const glm::dvec3 &v) {
     const glm::dvec3 vector = scaled(v).vector;
     return vector / glm::length(vector);

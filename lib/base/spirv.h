@@ -1,4 +1,4 @@
-// A SPIR-V module's words and instructions (Khronos, "SPIR-V Specification", version 1.5).
+// Words and instructions of SPIR-V modules (Khronos, "SPIR-V Specification", version 1.5).
 #pragma once
 
 #include <cstddef>
@@ -72,10 +72,10 @@ constexpr std::uint32_t first_word(Opcode opcode, std::uint32_t word_count) {
     return word_count << 16U | opcode;
 }
 
-// Thrown for unknown code.
+// Thrown for code that the library cannot interpret.
 struct Unknown {};
 
-// Calls use(instruction, offset) until it returns false.
+// Calls use(instruction, offset) for each instruction from offset on, until use returns false.
 template <typename Use>
 void for_each_instruction(Words code, std::size_t offset, Use &&use) {
     while (offset < code.size()) {

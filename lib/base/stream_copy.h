@@ -1,4 +1,4 @@
-// Copies around the processor's cache, for bytes that are not read soon.
+// Copies without filling the processor's cache, for bytes that are not read soon.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +6,7 @@
 
 namespace pt {
 
-// to: room for from.size() bytes.
+// to must have room for from.size() bytes.
 void stream_copy(std::span<const std::byte> from, std::byte *to);
 
 } // namespace pt

@@ -1,4 +1,4 @@
-// The growth of pt.h's structs: struct_size first, new fields at the end, zero means default.
+// Reads and writes the caller's structs, which may be shorter or longer than this library's (pt.h, "Structs").
 #pragma once
 
 #include "lib/base/error.h"
@@ -11,7 +11,7 @@
 
 namespace pt {
 
-// Structs have tens of bytes; more than 65536 is an uninitialised field.
+// A size above 65536 shows an uninitialised field: structs have hundreds of bytes at most.
 constexpr bool is_struct_size(std::uint32_t size) {
     return size >= sizeof size && size <= 65536;
 }
@@ -26,7 +26,8 @@ inline BrokenRule wrong_size(const char *name, std::int64_t index, std::uint32_t
     return {.subject = name, .index = index, .member = "struct_size", .value = std::to_string(size), .rule = rule};
 }
 
-// name, index: for messages; index >= 0: of an array's element. Throws PT_ERROR_INVALID_ARGUMENT.
+// Reads and checks struct_size. name and index are for messages; index is that of an array's element, or -1. Throws
+// PT_ERROR_INVALID_ARGUMENT.
 inline std::uint32_t struct_size_of(const void *user, const char *name, std::int64_t index = -1) {
     require_not_null(user, name);
     std::uint32_t size = 0;
@@ -39,7 +40,7 @@ inline std::uint32_t struct_size_of(const void *user, const char *name, std::int
     return size;
 }
 
-// Throws PT_ERROR_UNSUPPORTED for nonzero bytes beyond those known here.
+// Throws PT_ERROR_UNSUPPORTED if a byte after the first `known` ones is not 0.
 inline void require_known(const void *user, std::uint32_t size, std::size_t known, const char *name,
                           std::int64_t index) {
     const auto *bytes = static_cast<const unsigned char *>(user);
@@ -51,8 +52,8 @@ inline void require_known(const void *user, std::uint32_t size, std::size_t know
                                        std::to_string(known) + " bytes of the struct"));
 }
 
-// Copies like Linux' copy_struct_from_user: a shorter struct is extended by zeros; a longer one's unknown part must be
-// zero.
+// Copies a struct, as copy_struct_from_user of Linux does. A shorter struct is extended by zeros. In a longer one the
+// unknown part must be zero.
 template <typename T>
 T copy_in(const T *user, const char *name, std::int64_t index = -1) {
     const std::uint32_t size = struct_size_of(user, name, index);
@@ -63,7 +64,7 @@ T copy_in(const T *user, const char *name, std::int64_t index = -1) {
     return copy;
 }
 
-// Writes what both sides know, except struct_size. size: the caller's.
+// Writes all bytes after struct_size that both sides know. size is the caller's struct_size.
 template <typename T>
 void copy_known(const T &result, T *user, std::uint32_t size) noexcept {
     constexpr std::size_t first = sizeof result.struct_size;
@@ -72,7 +73,6 @@ void copy_known(const T &result, T *user, std::uint32_t size) noexcept {
                 reinterpret_cast<const unsigned char *>(&result) + first, end - first);
 }
 
-// Also checks the caller's struct_size.
 template <typename T>
 void copy_out(const T &result, T *user, const char *name) {
     copy_known(result, user, struct_size_of(user, name));

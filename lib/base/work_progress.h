@@ -1,4 +1,4 @@
-// Reports a long call's progress, a sequence of stages, to the caller's pt_progress_fn, which may cancel it.
+// Reports the progress of a long call, which is a sequence of stages, to the caller's pt_progress_fn.
 #pragma once
 
 #include <pt/pt.h>
@@ -8,12 +8,11 @@
 
 namespace pt {
 
-// The call returns PT_CANCELLED.
+// Thrown if the caller asked to stop. The call returns PT_CANCELLED.
 struct Cancelled {};
 
 class WorkProgress {
 public:
-    // Reports to nobody.
     WorkProgress() = default;
 
     // function may be NULL.
@@ -22,7 +21,7 @@ public:
     WorkProgress(const WorkProgress &) = delete;
     WorkProgress &operator=(const WorkProgress &) = delete;
 
-    // share_of_rest: the stage's share of the remaining whole. work: its amount, in any unit.
+    // Begins a stage. share_of_rest is its fraction of the remaining call, work its amount in any unit.
     void enter(double share_of_rest, double work) {
         begin_ = end_; // a stage that ended early counts as done
         end_ += share_of_rest * (1.0 - end_);
@@ -30,7 +29,7 @@ public:
         done_ = 0.0;
     }
 
-    // elements decide when to report.
+    // Adds finished work. The number of elements decides when to report.
     void add(double work, std::size_t elements) {
         done_ += work;
         untold_ += elements;
@@ -40,7 +39,7 @@ public:
 
     void add(std::size_t elements) { add(static_cast<double>(elements), elements); }
 
-    // Reports 1: the rest cannot fail.
+    // Reports 1. After this the call must not fail.
     void finish() {
         enter(1.0, 1.0);
         done_ = 1.0;
@@ -48,7 +47,7 @@ public:
     }
 
 private:
-    // These take between half a millisecond and several.
+    // This many elements take about a millisecond.
     static constexpr std::size_t elements_between_calls = std::size_t{1} << 17;
 
     void tell() {
@@ -60,10 +59,10 @@ private:
 
     pt_progress_fn function_ = nullptr;
     void *user_ = nullptr;
-    double begin_ = 0.0; // share of the whole
+    double begin_ = 0.0; // the stage goes from begin_ to end_, fractions of the call
     double end_ = 0.0;
-    double work_ = 1.0; // the stage's work
-    double done_ = 0.0; // its finished part
+    double work_ = 1.0;
+    double done_ = 0.0; // finished part of work_
     std::size_t untold_ = 0;
 };
 
