@@ -32,6 +32,7 @@ public:
 
     const char *c_str() const noexcept { return shown_ ? shown_ : text_.c_str(); }
 
+    // NULL if the message concerns no rule.
     const Violations *broken_rules() const noexcept { return broken_rules_.get(); }
 
 private:

@@ -1,5 +1,5 @@
-/* A camera that circles a ball. Each frame takes a few samples while the program does its other work, without threads.
- * The last frame is written to moving_camera.pfm.
+/* A camera circles a ball. Each frame takes a few samples while the program does its other work, without threads. The
+ * last frame goes to moving_camera.pfm.
  *
  *     moving_camera [FRAMES [SAMPLES]]
  *
@@ -12,7 +12,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* The longest wait in a poll, nanoseconds: short in a program with 60 frames a second. */
+/* The longest wait in a poll, in nanoseconds. It is short for a program with 60 frames a second. */
 static const uint64_t poll_nanoseconds = 2000000;
 
 /* An interactive program handles input here, and draws the previous frame. */
@@ -20,7 +20,7 @@ static void do_other_work(unsigned long *times) {
     ++*times;
 }
 
-/* Discards the samples of the previous frame. */
+/* A new camera discards the samples of the previous frame. */
 static pt_result move_camera(pt_context *context, double turns) {
     const double angle = turns * 6.283185307179586;
     pt_camera camera = {.struct_size = sizeof camera, .target = {0.0, 1.0, 0.0}};
@@ -70,14 +70,14 @@ int main(int argc, char **argv) {
     const unsigned frames = argc > 1 ? (unsigned)strtoul(argv[1], NULL, 10) : 120;
     const pt_accumulate_info samples = {.struct_size = sizeof samples,
                                         .sample_count = argc > 2 ? (uint32_t)strtoul(argv[2], NULL, 10) : 2};
-    /* A moving camera never rests long enough for a kernel of the scene's own to pay off. */
+    /* A moving camera never rests long enough for a kernel with the scene's numbers as constants to pay off. */
     const pt_create_info create = {.struct_size = sizeof create, .flags = PT_CREATE_NO_SCENE_KERNELS};
     pt_context *context;
     pt_result result = pt_create(&create, &context);
 
     if (result >= 0)
         result = render_frames(context, frames, &samples, &image);
-    if (result < 0) /* without a context, the message is from this thread's pt_create */
+    if (result < 0) /* if pt_create failed, context is NULL */
         fprintf(stderr, "%s: %s\n", pt_result_name(result), pt_last_error(context));
     pt_destroy(context);
     if (result >= 0 && !write_pfm("moving_camera.pfm", pixels)) {

@@ -1,5 +1,5 @@
-/* Bring your own Vulkan: the program makes instance, device and queue, lends them to a context that renders, and then
- * uses them again. A mutex guards the queue, as several threads would need.
+/* Your own Vulkan: the program makes instance, device and queue, lends them to a context that renders, and then uses
+ * them again. A mutex guards the queue, as a program with several threads needs it.
  *
  * Exit status 0 if the context rendered and the device then did the program's own work.
  */
@@ -62,8 +62,8 @@ static VkResult choose_device(own_vulkan *own) {
     return VK_ERROR_INCOMPATIBLE_DRIVER;
 }
 
-/* pt needs no features and no extensions. Devices that want VK_KHR_portability_subset are only listed for instances
- * that ask for them. */
+/* pt needs no features and no extensions. Devices with VK_KHR_portability_subset are absent here, because Vulkan lists
+ * them only if the instance asks for them. */
 static VkResult make_device(own_vulkan *own) {
     const float priority = 1.0f;
     const VkDeviceQueueCreateInfo queue = {.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
@@ -79,7 +79,7 @@ static VkResult make_device(own_vulkan *own) {
     return result;
 }
 
-/* On failure, unmake() destroys what was made so far. */
+/* After a failure, unmake() destroys the objects made so far. */
 static VkResult make(own_vulkan *own) {
     VkResult result = make_instance(own);
 
@@ -106,7 +106,7 @@ static void unlock_queue(void *user) {
 }
 
 static pt_result render_on(pt_context *context, float *pixels, uint64_t size_bytes) {
-    /* A sphere around the camera that emits red 1, green 2 and blue 4, so every pixel has these values. */
+    /* The sphere around the camera emits red 1, green 2 and blue 4, so every pixel has these values. */
     static const pt_material material = {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, {1.0f, 2.0f, 4.0f}, 0.0f, 0};
     static const pt_sphere sphere = {{0.0, 0.0, 0.0}, 5.0, {0.0, 0.0, 0.0}, 0, 0};
     const pt_scene scene = {
@@ -150,13 +150,13 @@ static pt_result render(own_vulkan *own, float *pixels, uint64_t size_bytes) {
 
     if (result >= 0)
         result = render_on(context, pixels, size_bytes);
-    if (result < 0) /* without a context, the message is from this thread's pt_create */
+    if (result < 0) /* if pt_create failed, context is NULL */
         fprintf(stderr, "%s: %s\n", pt_result_name(result), pt_last_error(context));
     pt_destroy(context);
     return result;
 }
 
-/* The device still works for this program: the queue signals a fence. */
+/* Checks that the device still works for this program: the queue signals a fence. */
 static VkResult use_queue(own_vulkan *own) {
     const uint64_t nanoseconds = 5000000000u;
     const VkFenceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};

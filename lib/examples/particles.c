@@ -1,5 +1,5 @@
-/* Ten thousand particles: positions and colors in arrays, one radius for all. pt_set_scene reads them in place. The
- * picture goes to particles.pfm.
+/* Ten thousand particles have positions and colors in arrays, and one radius. pt_set_scene reads the arrays in place.
+ * The picture goes to particles.pfm.
  *
  *     particles [COUNT [SAMPLES]]
  */
@@ -11,11 +11,11 @@
 typedef struct particles {
     uint32_t count;
     float (*positions)[3];
-    uint8_t (*colors)[3]; /* sRGB, as color maps have them */
+    uint8_t (*colors)[3]; /* sRGB, as in color maps */
     float radius;
 } particles;
 
-/* A sunflower's spiral, bent into a bowl: orange in the middle, blue at the rim. */
+/* Arranges them in a sunflower's spiral, bent into a bowl: orange in the middle, blue at the rim. */
 static void arrange(particles *all) {
     const double golden_angle = 2.39996322972865332;
     uint32_t i;
@@ -36,7 +36,7 @@ static void arrange(particles *all) {
 
 static pt_result set_scene(pt_context *context, const particles *all) {
     static const pt_material materials[] = {
-        {{1.0f, 1.0f, 1.0f}, {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, 0.0f, 0}, /* white, so that colors are as given */
+        {{1.0f, 1.0f, 1.0f}, {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, 0.0f, 0}, /* white keeps the particles' colors */
         {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, {40.0f, 40.0f, 36.0f}, 0.0f, 0}, /* a lamp */
     };
     static const pt_sphere lamp = {{2.0, 5.0, 2.0}, 1.0, {0.0, 0.0, 0.0}, 1, 0};
@@ -84,7 +84,7 @@ static int render_to_file(const particles *all, uint32_t sample_count) {
 
     if (result >= 0)
         result = render(context, all, sample_count, &image);
-    if (result < 0) /* without a context, the message is from this thread's pt_create */
+    if (result < 0) /* if pt_create failed, context is NULL */
         fprintf(stderr, "%s: %s\n", pt_result_name(result), pt_last_error(context));
     pt_destroy(context);
     if (result >= 0 && !write_pfm("particles.pfm", pixels)) {

@@ -1,9 +1,9 @@
-/* Progressive display. One thread renders in steps that double; after each it writes progressive.pfm and prints the
- * error. The main thread shows the step's progress. Ctrl-C or a limit of time stops it.
+/* Progressive display. One thread renders in steps that double the samples. After each step it writes progressive.pfm
+ * and prints the error. The main thread shows the step's progress. Ctrl-C or a time limit stops the program.
  *
  *     progressive [SAMPLES [SECONDS]]
  *
- * Exit status 0 if the image was written, even if it was stopped early.
+ * Exit status 0 if an image was written, even if the program was stopped early.
  */
 #define _POSIX_C_SOURCE 200809L
 
@@ -20,13 +20,13 @@
 
 static atomic_int stop; /* set by a signal or the main thread, read by the rendering thread */
 
-/* Shared by both threads. While the rendering thread runs, only that uses the context. */
+/* Shared by both threads. While the rendering thread runs, only this thread uses the context. */
 typedef struct render_job {
     pt_context *context;
     uint32_t samples;
-    pt_result result;         /* valid when the thread has ended, like pt_last_error(context) */
-    atomic_int shown;         /* the last image was written */
-    atomic_int step_permille; /* of the current step */
+    pt_result result;         /* valid when the thread has ended */
+    atomic_int shown;         /* 1 if the last image was written */
+    atomic_int step_permille; /* progress of the current step */
     atomic_int ended;
 } render_job;
 
@@ -35,14 +35,13 @@ static void request_stop(int signal_number) {
     atomic_store(&stop, 1);
 }
 
-/* Runs on the rendering thread, after every submission. Returning nonzero ends pt_accumulate with PT_CANCELLED. */
+/* Runs on the rendering thread, after every submission. A result other than 0 ends pt_accumulate with PT_CANCELLED. */
 static int32_t on_progress(void *user, double fraction) {
     render_job *job = user;
     atomic_store(&job->step_permille, (int)(fraction * 1000.0));
     return atomic_load(&stop);
 }
 
-/* Shows the image of the samples so far. */
 static pt_result show(render_job *job, uint32_t sample_count) {
     static float pixels[WIDTH * HEIGHT * 3];
     const pt_image image = {.struct_size = sizeof image, .data = pixels, .size_bytes = sizeof pixels};
@@ -53,7 +52,7 @@ static pt_result show(render_job *job, uint32_t sample_count) {
         result = pt_get_error_estimate(job->context, &error);
     if (result < 0)
         return result;
-    /* Renamed, so that a viewer that watches the file never sees half an image. */
+    /* The file is renamed when it is complete, so that a viewer never sees half an image. */
     atomic_store(&job->shown, write_pfm("progressive.pfm.part", pixels) &&
                                   rename("progressive.pfm.part", "progressive.pfm") == 0);
     if (!atomic_load(&job->shown)) {
@@ -61,13 +60,13 @@ static pt_result show(render_job *job, uint32_t sample_count) {
         atomic_store(&stop, 1);
     }
     printf("\r%u samples", (unsigned)sample_count);
-    if (isfinite(error.relative_rmse)) /* known from 16 samples on */
+    if (isfinite(error.relative_rmse)) /* finite from 16 samples on */
         printf(", error %.2g%%", 100.0 * error.relative_rmse);
     printf("          \n");
     return result;
 }
 
-/* The image has the same bits, however the samples are split into steps. */
+/* The steps do not change the image's bits. */
 static pt_result render_in_steps(render_job *job) {
     pt_stats stats = {.struct_size = sizeof stats};
     pt_accumulate_info step = {.struct_size = sizeof step, .sample_count = 1};
@@ -84,7 +83,7 @@ static pt_result render_in_steps(render_job *job) {
             result = show(job, stats.sample_count);
         if (result >= 0)
             result = accumulated;
-        step.sample_count = stats.sample_count > 0 ? stats.sample_count : 1; /* doubles the number */
+        step.sample_count = stats.sample_count > 0 ? stats.sample_count : 1; /* doubles the samples */
     }
     return result;
 }
@@ -96,10 +95,10 @@ static void *render_thread(void *user) {
     return NULL;
 }
 
-/* Waits for the thread. After `seconds` (0: never) asks it to stop, but not before an image was shown. */
+/* Waits for the thread. After `seconds` it asks the thread to stop, but not before an image was shown. 0: never. */
 static void watch(render_job *job, double seconds) {
     const struct timespec pause = {0, 20000000};
-    double waited = 0.0; /* nearly: sleeps are a little longer */
+    double waited = 0.0; /* a little less than the true time */
 
     while (!atomic_load(&job->ended)) {
         printf("\r%3d%% of this step", atomic_load(&job->step_permille) / 10);

@@ -1,4 +1,5 @@
-/* The smallest program: a ball under a lamp, written to smallest.pfm (linear radiance as floats; GIMP and tev show it).
+/* The smallest program: a ball under a lamp, written to smallest.pfm. The file has linear radiance as floats. GIMP and
+ * tev show it.
  *
  *     cc smallest.c $(pkg-config --cflags --libs pt) -o smallest && ./smallest
  */
@@ -8,7 +9,7 @@
 
 enum { WIDTH = 128, HEIGHT = 96 };
 
-/* Makes each call only if those before it succeeded. A result > 0 is a remark, not a failure. */
+/* Makes each call only if all earlier calls succeeded. A result > 0 is a remark, not a failure. */
 static pt_result render(pt_context *context, float *pixels, uint64_t size_bytes) {
     static const pt_material materials[] = {
         {{0.8f, 0.8f, 0.8f}, {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, 0.0f, 0},    /* white, matt */
@@ -63,7 +64,7 @@ static pt_result render(pt_context *context, float *pixels, uint64_t size_bytes)
     return result;
 }
 
-/* Returns 1 if the file is whole. PFM wants the bottom row first; -1 says that the floats are little-endian. */
+/* Returns 1 if the file is complete. PFM has the bottom row first. -1 means that the floats are little-endian. */
 static int write_pfm(const char *path, const float *pixels) {
     FILE *file = fopen(path, "wb");
     int row;
@@ -82,12 +83,12 @@ int main(void) {
     pt_context *context;
     pt_result result = pt_create(NULL, &context);
 
-    if (result < 0) { /* without a context, the message is this thread's */
+    if (result < 0) { /* there is no context, so pt_last_error gets NULL */
         fprintf(stderr, "%s: %s\n", pt_result_name(result), pt_last_error(NULL));
         return 1;
     }
     result = render(context, pixels, sizeof pixels);
-    if (result < 0) /* before pt_destroy, which frees the message */
+    if (result < 0) /* pt_destroy frees the message, so it comes later */
         fprintf(stderr, "%s: %s\n", pt_result_name(result), pt_last_error(context));
     pt_destroy(context);
     if (result < 0)

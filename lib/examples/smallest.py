@@ -1,4 +1,4 @@
-"""The smallest program in Python: a ball under a lamp, written to smallest.pfm, and as a picture to smallest.png.
+"""The smallest program in Python: a ball under a lamp, written to smallest.pfm and smallest.png.
 
     pip install ./lib/python && python3 smallest.py
 """
@@ -23,7 +23,7 @@ def show_progress(fraction):
 
 
 def write_pfm(path, pixels):
-    """PFM wants the bottom row first; -1 says that the floats are little-endian."""
+    """PFM has the bottom row first. -1 means that the floats are little-endian."""
     with open(path, "wb") as file:
         file.write(b"PF\n%d %d\n-1.0\n" % (pixels.shape[1], pixels.shape[0]))
         file.write(np.flipud(pixels).astype("<f4").tobytes())

@@ -1,6 +1,6 @@
-// Two contexts in two threads: each renders the view of one eye, and both images go side by side into two_contexts.ppm.
-// Contexts are independent. Here they share one device; each could have its own (pt_create_info.device). Exit status 0
-// if the file was written.
+// Two contexts in two threads: each renders the view of one eye. Both images go side by side into two_contexts.ppm.
+// Contexts are independent. Here they share one device, but each could use another one (pt_create_info.device). Exit
+// status 0 if the file was written.
 #include <pt/pt.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ struct DestroyContext {
 };
 using Context = std::unique_ptr<pt_context, DestroyContext>;
 
-// Results > 0 are remarks. Without a context, the message is from this thread's last pt_create.
+// Results > 0 are remarks. If pt_create failed, context is NULL.
 void check(pt_result result, const Context &context) {
     if (result < 0)
         throw std::runtime_error(std::string(pt_result_name(result)) + ": " + pt_last_error(context.get()));
@@ -36,7 +36,7 @@ Context create_context() {
     return Context(context);
 }
 
-// R, G, B of each pixel, row by row, seen from an eye at x. The context is used on this thread only.
+// Returns R, G, B of each pixel, row by row, seen from an eye at this x. Only this thread uses the context.
 std::vector<float> render(double eye) {
     const pt_material materials[] = {
         {{0.8F, 0.8F, 0.8F}, {0, 0, 0}, {0, 0, 0}, 0, 0},
@@ -97,7 +97,7 @@ int main() {
     try {
         std::future<std::vector<float>> left = std::async(std::launch::async, render, -0.1);
         std::future<std::vector<float>> right = std::async(std::launch::async, render, 0.1);
-        const std::vector<float> left_image = left.get(); // rethrows the thread's exception
+        const std::vector<float> left_image = left.get(); // get() rethrows the thread's exception
         write_side_by_side("two_contexts.ppm", left_image, right.get());
     } catch (const std::exception &error) {
         std::cerr << error.what() << '\n';

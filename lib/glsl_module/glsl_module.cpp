@@ -36,13 +36,13 @@ std::string read_source(const fs::path &path) {
     } catch (const platform::InputError &error) {
         throw std::runtime_error(path.string() + ": " + error.what());
     }
-    constexpr std::string_view byte_order_mark = "\xef\xbb\xbf"; // of UTF-8, which editors may add
+    constexpr std::string_view byte_order_mark = "\xef\xbb\xbf"; // editors may add one to UTF-8
     if (text.starts_with(byte_order_mark))
         text.erase(0, byte_order_mark.size());
     return text;
 }
 
-// Looks beside the including file, then in the directory. glslang's messages use the paths found.
+// Looks for a file beside the including file, then in the directory. Messages of glslang have the path that was found.
 class Includer : public glslang::TShader::Includer {
 public:
     Includer(fs::path directory, const fs::path &main_file) :
@@ -65,8 +65,8 @@ public:
         }
     }
 
-    // Called for #include <name>, and after includeLocal has found nothing; then gives the reason. An empty name means
-    // no file.
+    // Called for #include <name>, and after includeLocal has found no file. The result's empty name means that there is
+    // no file, and its text is the reason.
     IncludeResult *includeSystem(const char * /*name*/, const char * /*file*/, std::size_t /*depth*/) override {
         const std::string reason = std::exchange(reason_, "");
         return hand_over("",
@@ -83,13 +83,13 @@ public:
     }
 
 private:
-    // A file behind an include guard may include itself, and is then open twice.
+    // A file with an include guard may include itself, and is then open twice.
     static constexpr std::ptrdiff_t most_open_times = 2;
 
-    // glslang refers to the text until releaseInclude.
+    // glslang uses the text until it calls releaseInclude.
     static IncludeResult *hand_over(const std::string &name, std::unique_ptr<std::string> text) {
         auto *const result = new IncludeResult(name, text->data(), text->size(), text.get());
-        static_cast<void>(text.release()); // the result's user data owns it
+        static_cast<void>(text.release()); // The result's user data now owns the text.
         return result;
     }
 
@@ -105,13 +105,13 @@ private:
     }
 
     fs::path directory_;
-    std::vector<fs::path> open_files_; // each included by the previous
-    std::string reason_;               // of the last refused #include
-    bool is_endless_ = false;          // no further #include is followed
+    std::vector<fs::path> open_files_; // each was included by the previous one
+    std::string reason_;               // why the last #include was refused
+    bool is_endless_ = false;          // refuse every further #include
 };
 
-// Like glslangValidator -V, but reporting all errors: stopping within an included file would make glslang misread the
-// next directive.
+// The rules of glslangValidator -V. All errors are reported, because glslang would misread the next directive after
+// stopping within an included file.
 constexpr auto rules = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules | EShMsgCascadingErrors);
 
 std::string trimmed(std::string log) {
@@ -119,21 +119,21 @@ std::string trimmed(std::string log) {
     return log;
 }
 
-// Never undone: tables of built-in functions take most of the first compilation's time.
+// Keeps glslang's tables of built-in functions, which take most of the first compilation's time.
 void start_glslang() {
     static const bool started = glslang::InitializeProcess();
     if (!started)
         throw std::runtime_error("glslang does not start");
 }
 
-// Options as in PtShaders.cmake, so that the words equal the embedded ones.
+// Uses the options of PtShaders.cmake, so that the words equal the embedded ones.
 Words spirv_of(const fs::path &path, const fs::path &directory) {
     const std::string name = path.string();
     const std::string text = read_source(path);
     const char *const texts[] = {text.data()};
     const int lengths[] = {static_cast<int>(text.size())};
     const char *const names[] = {name.c_str()};
-    constexpr int vulkan_glsl = 100; // dialect GL_KHR_vulkan_glsl
+    constexpr int vulkan_glsl = 100; // version of GL_KHR_vulkan_glsl
     constexpr int default_version = 100;
 
     glslang::TShader shader(EShLangCompute);
@@ -157,7 +157,7 @@ Words spirv_of(const fs::path &path, const fs::path &directory) {
     return words;
 }
 
-// Drivers do not validate.
+// Drivers do not validate SPIR-V.
 void validate(const Words &words, const fs::path &path) {
     std::string log;
     spvtools::SpirvTools tools(SPV_ENV_VULKAN_1_2);
@@ -170,7 +170,7 @@ void validate(const Words &words, const fs::path &path) {
 }
 
 Words compile(const fs::path &directory, const char *name) {
-    static std::mutex one_at_a_time; // glslang's memory pools belong to threads, its tables to the process
+    static std::mutex one_at_a_time; // glslang's tables belong to the process
     const std::lock_guard lock(one_at_a_time);
     start_glslang();
     const fs::path path = directory / name;

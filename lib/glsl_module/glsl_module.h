@@ -1,5 +1,5 @@
-/* The interface to libpt-glsl.so, the only module that links glslang. It is loaded only to compile kernels at run
- * time. Plain C types, no exceptions. */
+/* The interface of libpt-glsl.so, the only module that links glslang. The library loads it only to compile kernels at
+ * run time. It has plain C types and no exceptions. */
 #ifndef PT_GLSL_MODULE_H
 #define PT_GLSL_MODULE_H
 
@@ -10,13 +10,13 @@
 extern "C" {
 #endif
 
-/* Receives the SPIR-V's bytes, or the compiler's log, not zero-terminated. They are valid during the call. Must not
- * throw. */
+/* Receives the bytes of the SPIR-V, or the compiler's log without a terminating zero. They are valid during the call.
+ * Must not throw. */
 typedef void (*pt_glsl_receive_fn)(void *user, const void *bytes, size_t size);
 
 /* Compiles the compute shader directory/name to the SPIR-V that the build would embed. Included files are beside the
- * including file or in directory. Calls receive once and returns 0 with the words, or -1 with the log, whose lines
- * begin with file and line. Thread-safe. */
+ * including file or in directory. Calls receive once: with the SPIR-V, and returns 0, or with the log, and returns -1.
+ * Lines of the log begin with file and line. Thread-safe. */
 typedef int32_t (*pt_compile_glsl_fn)(const char *directory, const char *name, pt_glsl_receive_fn receive, void *user);
 
 #define PT_COMPILE_GLSL_SYMBOL "pt_glsl_compile"

@@ -1,4 +1,4 @@
-// File descriptors, beyond std::filesystem. errno has the reason of a failure.
+// Files by descriptor, for tasks that std::filesystem lacks. errno has the reason of a failure.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ inline constexpr int standard_input = 0;
 inline constexpr int standard_output = 1;
 inline constexpr int standard_error = 2;
 
-// Names are UTF-8 in every locale.
+// Takes names as UTF-8 in every locale.
 inline std::filesystem::path path_of(std::string_view text) {
     return std::u8string(text.begin(), text.end());
 }
@@ -43,31 +43,31 @@ private:
     int descriptor_;
 };
 
-// Return -1 on failure.
-int open_to_read(const std::filesystem::path &path); // does not wait for a named pipe's writer
-int create_file(const std::filesystem::path &path);  // for writing; EEXIST if it exists
+// These four return -1 on failure.
+int open_to_read(const std::filesystem::path &path); // does not wait for the writer of a named pipe
+int create_file(const std::filesystem::path &path);  // for writing; EEXIST if the file exists
 std::ptrdiff_t read_some(int descriptor, std::span<char> bytes);
 std::ptrdiff_t write_some(int descriptor, std::span<const std::byte> bytes);
 
-// Protects a new file from remove_abandoned() of other processes. False if it was removed in between. True without
-// locks in the file system, where nothing is ever removed.
+// Protects a new file from remove_abandoned() of other processes. Returns false if the file was removed before. Without
+// locks in the file system no file is removed.
 bool lock_created(int descriptor);
 
 // Removes a file unless a process has locked it.
 void remove_abandoned(const std::filesystem::path &path);
 
-// Renames a new file once its bytes are on the disk. Keeps the permissions of a file that it replaces.
+// Renames a new file once its bytes are on the disk. If it replaces a file, it takes that file's permissions.
 bool rename_written(int descriptor, const std::filesystem::path &from, const std::filesystem::path &to);
 
-// Empty unless it is a regular file.
+// Empty unless the file is regular.
 std::optional<std::uint64_t> regular_size(int descriptor);
 
-// Changes whenever the file is written or replaced; empty without a file.
+// A text that changes whenever the file is written or replaced. Empty without a file.
 std::optional<std::string> file_state(const std::filesystem::path &path);
 
 bool may_write(const std::filesystem::path &path);
 
-// Whether writing may follow this symbolic link, even where others may have put it.
+// Whether writing may follow this symbolic link, which others may have created.
 bool may_follow(const std::filesystem::path &link);
 
 } // namespace platform

@@ -14,7 +14,7 @@ constexpr std::size_t block = std::size_t{1} << 16;
     throw InputError(std::generic_category().message(error));
 }
 
-// The system would end the name at the NUL.
+// A path with a NUL byte is refused, because the system would cut the name there.
 int opened(const std::filesystem::path &path) {
     if (path.native().find(std::filesystem::path::value_type{}) != std::filesystem::path::string_type::npos)
         throw InputError("a file's name has no NUL byte");
@@ -42,7 +42,7 @@ std::string_view InputFile::first(std::size_t count) {
 }
 
 std::string InputFile::all() {
-    bytes_.reserve(size_ + block); // avoids moving a large file while it grows
+    bytes_.reserve(size_ + block); // so that a large string is not moved
     while (take_block()) {
     }
     return std::exchange(bytes_, {});

@@ -1,4 +1,4 @@
-// Reads files from their beginning, as far as wanted.
+// Reads files from the beginning, partly or whole.
 #pragma once
 
 #include "lib/platform/file.h"
@@ -12,37 +12,37 @@
 
 namespace platform {
 
-// The reason, without the file's name.
+// The message is the reason, without the file's name.
 struct InputError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// All functions throw InputError.
+// Any function can throw InputError.
 class InputFile {
 public:
-    // Opens regular files only: a named pipe may wait for its writer, a device may have no end.
+    // Opens regular files only. A named pipe could wait for its writer, and a device could have no end.
     explicit InputFile(const std::filesystem::path &path);
 
-    // Standard input, of any kind.
+    // Reads standard input, of any kind.
     InputFile() = default;
 
-    // Bytes; 0 for standard input.
+    // In bytes; 0 for standard input.
     std::uint64_t size() const { return size_; }
 
-    // The first `count` bytes, or all of a shorter file. Valid until the next call.
+    // Returns the first `count` bytes, or all of a shorter file. Valid until the next call.
     std::string_view first(std::size_t count);
 
     std::string all();
 
-    // A file with a NUL byte is no text, and is read only up to that block.
+    // Ends after a block with a NUL byte, because the file is then no text.
     std::string text();
 
 private:
     bool take_block(); // false at the end
 
-    FileDescriptor file_{-1}; // closed: standard input
+    FileDescriptor file_{-1}; // not open: reads standard input
     std::uint64_t size_ = 0;
-    std::string bytes_; // so far
+    std::string bytes_; // read so far
 };
 
 } // namespace platform

@@ -1,4 +1,4 @@
-// Libraries loaded at run time, which stay loaded.
+// Loads libraries at run time. They stay loaded.
 #pragma once
 
 #include <filesystem>
@@ -6,18 +6,18 @@
 
 namespace platform {
 
-// path: or a name, looked for in the system's folders, never in the working directory. NULL on failure, with the reason
-// in module_error().
+// Loads a path, or a name that is looked for in the system's folders, not in the working directory. NULL on failure;
+// module_error() has the reason.
 void *load_module(const std::filesystem::path &path);
 void *find_function(void *module, const char *name);
 std::string module_error();
 
 void keep_loaded(const char *name);
 
-// The folder of the library or program with the function; empty if unknown.
+// The folder of the library or program that has the function; empty if unknown.
 std::filesystem::path folder_with(const void *function);
 
-// File names of a module of this project, and of Open Image Denoise 2.
+// The file names of a module of this project and of Open Image Denoise 2.
 std::string module_file(const std::string &name);
 extern const char *const denoiser_file;
 

@@ -1,4 +1,4 @@
-// Makes foreign text (names of files and keys, compilers, drivers) harmless for terminals.
+// Makes foreign text harmless for terminals: names of files and keys, messages of compilers and drivers.
 #pragma once
 
 #include <array>
@@ -11,10 +11,10 @@ namespace platform {
 
 struct Character {
     char32_t code;
-    std::size_t size; // bytes of UTF-8
+    std::size_t size; // bytes
 };
 
-// A byte that begins no sequence stands for itself, as in Latin-1.
+// Decodes the first character of UTF-8. A byte that begins no valid sequence counts as a Latin-1 character.
 inline Character first_character(std::string_view text) {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
     const std::size_t size = byte(0) < 0xc0 || byte(0) > 0xf7 ? 1 : byte(0) < 0xe0 ? 2 : byte(0) < 0xf0 ? 3 : 4;
@@ -33,7 +33,7 @@ constexpr bool is_control(char32_t code) {
            (code >= 0x2028 && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069);
 }
 
-// Writes these as <U+001B>, except those in `kept`.
+// Writes control characters as <U+001B>, except those in `kept`.
 inline std::string printable(std::string_view text, std::string_view kept = "") {
     std::string shown;
     while (!text.empty()) {
@@ -51,7 +51,6 @@ inline std::string printable(std::string_view text, std::string_view kept = "") 
     return shown;
 }
 
-// Keeps line breaks.
 inline std::string printable_lines(std::string_view text) {
     return printable(text, "\n");
 }

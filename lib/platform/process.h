@@ -6,7 +6,7 @@
 
 namespace platform {
 
-// A forked child has another number.
+// Tells a forked child from its parent.
 std::int64_t process_number();
 
 std::filesystem::path program_file();
@@ -17,17 +17,17 @@ std::uint64_t peak_bytes();
 // RAM and swap, within this process's limits.
 std::uint64_t most_bytes();
 
-// Also seen by drivers. Not thread-safe: the environment has no lock.
+// Drivers see the variable, too. Not thread-safe, because the environment has no lock.
 void set_environment(const char *name, const char *value);
 
-// May not exist; empty if unknown.
+// The folder may not exist. Empty if unknown.
 std::filesystem::path cache_folder();
 
-// Looks in the absolute folders of PATH, so that nothing in the current folder is run. Empty if not found.
+// Looks in the absolute folders of PATH, so that no file of the current folder is run. Empty if not found.
 std::filesystem::path find_program(const std::string &name);
 
-// Replaces this process by another program, with the arguments after the first two. Returns an exit code, or -1 and
-// errno if it cannot be run.
+// Replaces this process by another program, with the arguments after the first two. Returns -1 and errno if the program
+// cannot be run, or its exit code where a process cannot be replaced.
 int run_instead(const std::filesystem::path &program, char *const *arguments);
 
 } // namespace platform

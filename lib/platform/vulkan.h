@@ -5,7 +5,7 @@
 
 namespace platform {
 
-// NULL without a loader, with the reason in module_error().
+// NULL without a loader; module_error() has the reason.
 PFN_vkGetInstanceProcAddr vulkan_functions();
 
 } // namespace platform

@@ -6,7 +6,7 @@ namespace platform {
 
 const char *const denoiser_file = "libOpenImageDenoise.so.2";
 
-// Programs are linked with the loader.
+// On Linux programs are linked with the Vulkan loader.
 PFN_vkGetInstanceProcAddr vulkan_functions() {
     return &::vkGetInstanceProcAddr;
 }

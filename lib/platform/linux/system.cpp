@@ -19,12 +19,12 @@ std::uint64_t peak_bytes() {
 }
 
 std::uint64_t most_bytes() {
-    // The container's limit (cgroup v2): "max" if unlimited; no file outside containers.
+    // The container's limit (cgroup v2). The file has "max" without a limit, and is absent outside containers.
     std::uint64_t container = 0;
     if (!(std::ifstream("/sys/fs/cgroup/memory.max") >> container))
         container = std::numeric_limits<std::uint64_t>::max();
     struct sysinfo system {};
-    rlimit address_space{}; // the largest number if unlimited
+    rlimit address_space{};
     sysinfo(&system);
     getrlimit(RLIMIT_AS, &address_space);
     const auto bytes = [&](std::uint64_t units) { return units * system.mem_unit; };

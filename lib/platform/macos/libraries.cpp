@@ -5,7 +5,7 @@ namespace platform {
 
 const char *const denoiser_file = "libOpenImageDenoise.2.dylib";
 
-// Loaded on demand, so that a message can name what to install. MoltenVK is a driver and its own loader.
+// Loads the loader on demand, so that a message can say what to install. MoltenVK is a driver that needs no loader.
 PFN_vkGetInstanceProcAddr vulkan_functions() {
     static void *const loader = [] {
         void *const vulkan = load_module("libvulkan.1.dylib");

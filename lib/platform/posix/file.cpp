@@ -28,7 +28,7 @@ int open_to_read(const fs::path &path) {
 }
 
 int create_file(const fs::path &path) {
-    constexpr mode_t permissions = 0666; // less the umask
+    constexpr mode_t permissions = 0666; // the system removes those in the umask
     return open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, permissions);
 }
 
@@ -60,7 +60,7 @@ void remove_abandoned(const fs::path &path) {
 bool rename_written(int descriptor, const fs::path &from, const fs::path &to) {
     struct stat status {};
     if (lstat(to.c_str(), &status) == 0 && is_regular(status))
-        fchmod(descriptor, status.st_mode & 0777); // where possible
+        fchmod(descriptor, status.st_mode & 0777); // fails on file systems without permissions
     return fsync(descriptor) == 0 && std::rename(from.c_str(), to.c_str()) == 0;
 }
 
@@ -85,8 +85,8 @@ bool may_write(const fs::path &path) {
     return access(path.c_str(), W_OK) == 0;
 }
 
-// The kernel's rule for protected symbolic links (proc_sys_fs(5)): in a folder like /tmp, only links of the user and of
-// the folder's owner are safe.
+// The rule of the Linux kernel (protected_symlinks, proc_sys_fs(5)): in a folder like /tmp, only links of the user and
+// of the folder's owner are safe.
 bool may_follow(const fs::path &link) {
     constexpr mode_t open_to_all = S_ISVTX | S_IWOTH;
     struct stat of_link {};

@@ -19,10 +19,10 @@ std::string module_error() {
 
 void keep_loaded(const char *name) {
     if (void *const loaded = dlopen(name, RTLD_LAZY | RTLD_NOLOAD | RTLD_NODELETE))
-        dlclose(loaded); // drops only the reference just taken
+        dlclose(loaded); // releases only the reference of this dlopen
 }
 
-// A relative path counts only if its file is still the loaded one.
+// dladdr may give a relative path, which is used only if it still names the loaded file.
 std::filesystem::path folder_with(const void *function) {
     Dl_info info{};
     if (dladdr(function, &info) == 0 || !info.dli_fname)
@@ -41,7 +41,7 @@ std::filesystem::path folder_with(const void *function) {
 }
 
 std::string module_file(const std::string &name) {
-    return "lib" + name + ".so"; // on macOS too, for CMake's modules
+    return "lib" + name + ".so"; // CMake's modules have this ending on macOS too
 }
 
 } // namespace platform

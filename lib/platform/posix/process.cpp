@@ -19,7 +19,7 @@ void set_environment(const char *name, const char *value) {
     setenv(name, value, 1);
 }
 
-// XDG Base Directory Specification: relative paths are ignored.
+// The XDG Base Directory Specification says to ignore relative paths.
 fs::path cache_folder() {
     const auto folder = [](const char *name) {
         const char *variable = std::getenv(name);

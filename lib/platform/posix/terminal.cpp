@@ -20,7 +20,7 @@ extern "C" void note_end(int signal) {
     if (!end_of_process(signal))
         return;
     std::signal(signal, SIG_DFL);
-    raise(signal); // arrives when this handler returns
+    raise(signal); // The signal arrives when this handler returns.
 }
 
 extern "C" void note_picture_request(int) {
@@ -40,11 +40,12 @@ void handle(int signal, void (*handler)(int)) {
 void prepare_streams() {
     for (const int stream : {standard_input, standard_output, standard_error}) {
         if (fcntl(stream, F_GETFD) == -1 && errno == EBADF) {
-            // open() takes the lowest free number, this stream's. The stream still fails with EBADF.
+            // open() takes the lowest free number, which is the stream's. Its mode makes uses of the stream still fail
+            // with EBADF.
             static_cast<void>(open("/dev/null", stream == standard_input ? O_WRONLY : O_RDONLY));
         }
     }
-    std::signal(SIGXFSZ, SIG_IGN); // the write then fails with EFBIG
+    std::signal(SIGXFSZ, SIG_IGN); // a write beyond the limit then fails with EFBIG
 }
 
 bool is_terminal(int stream) {
@@ -62,7 +63,7 @@ void catch_signals(bool (*end)(int), void (*picture)()) {
     for (const int signal : {interruption, termination, hangup}) {
         struct sigaction old {};
         sigaction(signal, nullptr, &old);
-        if (old.sa_handler != SIG_IGN) // set by the parent, as for a background job or nohup
+        if (old.sa_handler != SIG_IGN) // The parent ignores it for a background job or nohup.
             handle(signal, &note_end);
     }
     handle(SIGUSR1, &note_picture_request);

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The runtime library's limit for one read or write.
+// The runtime library limits the bytes of one read or write.
 template <typename Byte>
 unsigned size_of_part(std::span<Byte> bytes) {
     constexpr std::size_t most = std::size_t{1} << 30;
@@ -43,7 +43,7 @@ void close_file(int descriptor) {
     _close(descriptor);
 }
 
-// Others may rename and remove the file meanwhile.
+// Other processes may rename and remove the open file.
 int open_to_read(const fs::path &path) {
     constexpr DWORD sharing = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
     return opened(
@@ -51,7 +51,7 @@ int open_to_read(const fs::path &path) {
         _O_RDONLY | _O_BINARY);
 }
 
-// Locked: others may not remove it.
+// Without FILE_SHARE_DELETE, other processes cannot remove the file.
 int create_file(const fs::path &path) {
     return opened(CreateFileW(path.c_str(), GENERIC_WRITE | DELETE, FILE_SHARE_READ, nullptr, CREATE_NEW,
                               FILE_ATTRIBUTE_NORMAL, nullptr),
@@ -74,7 +74,7 @@ void remove_abandoned(const fs::path &path) {
     DeleteFileW(path.c_str());
 }
 
-// By handle, so that nobody can remove it before.
+// Renames the open file, so that nobody can remove it before.
 bool rename_written(int descriptor, const fs::path &from, const fs::path &to) {
     static_cast<void>(from);
     const std::wstring name = fs::absolute(to).make_preferred().wstring();
@@ -107,10 +107,10 @@ std::optional<std::string> file_state(const fs::path &path) {
 }
 
 bool may_write(const fs::path &path) {
-    return _waccess(path.c_str(), 2) == 0; // not read-only
+    return _waccess(path.c_str(), 2) == 0; // mode 2: writing
 }
 
-// Only administrators and developers can make links.
+// On Windows only administrators and developers can create links.
 bool may_follow(const fs::path &) {
     return true;
 }

@@ -10,7 +10,7 @@ namespace platform {
 namespace fs = std::filesystem;
 
 void *load_module(const fs::path &path) {
-    constexpr DWORD beside = LOAD_LIBRARY_SEARCH_DLL_LOAD_DIR; // requires absolute paths
+    constexpr DWORD beside = LOAD_LIBRARY_SEARCH_DLL_LOAD_DIR; // allowed only with absolute paths
     std::error_code error;
     const bool is_name = !path.has_parent_path();
     const fs::path file = is_name ? path : fs::absolute(path, error).make_preferred();
@@ -30,7 +30,7 @@ void keep_loaded(const char *) {}
 fs::path folder_with(const void *function) {
     constexpr DWORD how = GET_MODULE_HANDLE_EX_FLAG_FROM_ADDRESS | GET_MODULE_HANDLE_EX_FLAG_UNCHANGED_REFCOUNT;
     HMODULE module = nullptr;
-    std::vector<wchar_t> path(32768); // the longest
+    std::vector<wchar_t> path(32768); // the longest path
     if (!GetModuleHandleExW(how, static_cast<const wchar_t *>(function), &module) ||
         GetModuleFileNameW(module, path.data(), static_cast<DWORD>(path.size())) == 0)
         return {};

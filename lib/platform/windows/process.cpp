@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Quotes enclose whole words in this project's command lines.
+// Skips a word. This project's command lines have quotes only around whole words.
 const wchar_t *after_word(const wchar_t *line) {
     const wchar_t end = *line == L'"' ? L'"' : L' ';
     line += *line == L'"' ? 1 : 0;
@@ -34,7 +34,7 @@ std::int64_t process_number() {
 }
 
 fs::path program_file() {
-    std::vector<wchar_t> path(32768); // the longest
+    std::vector<wchar_t> path(32768); // the longest path
     GetModuleFileNameW(nullptr, path.data(), static_cast<DWORD>(path.size()));
     return path.data();
 }
@@ -49,7 +49,7 @@ std::uint64_t most_bytes() {
     MEMORYSTATUSEX status{};
     status.dwLength = sizeof status;
     GlobalMemoryStatusEx(&status);
-    return status.ullTotalPageFile; // including RAM
+    return status.ullTotalPageFile; // RAM and page files
 }
 
 void set_environment(const char *name, const char *value) {
@@ -74,7 +74,7 @@ fs::path find_program(const std::string &name) {
     return {};
 }
 
-// No process can replace this one, so it waits. The other one gets the rest of the command line.
+// A process cannot be replaced on Windows, so this one waits for the program, which gets the rest of the command line.
 int run_instead(const fs::path &program, char *const *) {
     std::wstring line = L'"' + program.wstring() + L"\" " + after_word(after_word(GetCommandLineW()));
     STARTUPINFOW start{};

@@ -11,12 +11,12 @@ namespace {
 
 bool (*end_of_process)(int) = nullptr;
 
-// Runs on its own thread. The system ends the process for events not handled here.
+// Runs on a separate thread. If it returns FALSE, the process ends.
 BOOL WINAPI note_end(DWORD event) {
     const bool is_key = event == CTRL_C_EVENT || event == CTRL_BREAK_EVENT;
     if (end_of_process(is_key ? interruption : hangup))
         return FALSE;
-    if (!is_key) // the process ends when this returns, or after some seconds
+    if (!is_key) // The process ends when this returns, or after some seconds.
         Sleep(INFINITE);
     return TRUE;
 }
@@ -33,7 +33,7 @@ void prepare_streams() {
     SetConsoleOutputCP(CP_UTF8);
     DWORD mode = 0;
     if (GetConsoleMode(errors(), &mode))
-        SetConsoleMode(errors(), mode | ENABLE_VIRTUAL_TERMINAL_PROCESSING); // for the eraser of lines
+        SetConsoleMode(errors(), mode | ENABLE_VIRTUAL_TERMINAL_PROCESSING); // for escape sequences
 }
 
 bool is_terminal(int stream) {

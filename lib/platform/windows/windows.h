@@ -1,4 +1,4 @@
-// Includes windows.h without names that collide with others.
+// Includes windows.h without macros such as min and max.
 #pragma once
 
 #define WIN32_LEAN_AND_MEAN
