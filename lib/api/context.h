@@ -11,7 +11,7 @@ struct pt_context {
     explicit pt_context(const pt::CreateSettings &settings) : renderer(settings) {}
 
     mutable pt::InUse in_use;
-    pt::LastError last_error; // not of refused calls; declared before the renderer, whose destructor may log
+    pt::LastError last_error; // outlives the renderer, whose destructor may log
     pt::Renderer renderer;
 };
 

@@ -1,5 +1,5 @@
 /* Your own Vulkan: the program makes instance, device and queue, lends them to a context that renders, and then uses
- * them again. A mutex guards the queue, as a program with several threads needs it.
+ * them again. A mutex guards the queue, as if several threads used it.
  *
  * Exit status 0 if the context rendered and the device then did the program's own work.
  */

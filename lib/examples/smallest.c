@@ -88,7 +88,7 @@ int main(void) {
         return 1;
     }
     result = render(context, pixels, sizeof pixels);
-    if (result < 0) /* pt_destroy frees the message, so it comes later */
+    if (result < 0) /* must come before pt_destroy, which frees the message */
         fprintf(stderr, "%s: %s\n", pt_result_name(result), pt_last_error(context));
     pt_destroy(context);
     if (result < 0)

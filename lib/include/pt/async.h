@@ -35,7 +35,7 @@
 extern "C" {
 #endif
 
-/** Begins to add samples without waiting for them. Copies its arguments.
+/** Begins to add samples without waiting for them.
  *
  * Builds all kernels for the samples (pt_prepare builds most of them ahead). If pt_next_check returns the image's
  * present number of samples, a target error is checked first.

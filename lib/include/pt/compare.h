@@ -3,7 +3,7 @@
  *
  * The test looks at the difference of two images in the whole picture and in squares of 16, 32, 64, ... pixels. It
  * compares this difference with the differences of single pixels, whose errors are independent (shaders/README.md,
- * section 11). With the same seed in both images, it finds smaller changes. */
+ * section 11). With the same seed in both images, the test finds smaller changes. */
 #ifndef PT_COMPARE_H
 #define PT_COMPARE_H
 
@@ -25,8 +25,9 @@ enum {
 typedef struct pt_compared_image {
     const float *radiance; /**< PT_QUANTITY_RADIANCE in PT_FORMAT_RGB32F, row by row without gaps; finite */
     uint32_t min_samples;  /**< fewest samples of a pixel; 0 if unknown */
-    uint32_t max_samples;  /**< most samples of a pixel; must be min_samples, since PT_SAMPLING_ADAPTIVE shifts means */
-    uint32_t sampler;      /**< PT_SAMPLER_*, 0 if unknown; not PT_SAMPLER_HALTON, whose errors are not random */
+    uint32_t
+        max_samples;  /**< most samples of a pixel; must equal min_samples, because PT_SAMPLING_ADAPTIVE shifts means */
+    uint32_t sampler; /**< PT_SAMPLER_*, 0 if unknown; not PT_SAMPLER_HALTON, whose errors are not random */
     /** Not 0: samples may have missed lamps (PT_UNCERTAIN_UNMET). If only this image has the flag, the test ignores
      * that it is darker. */
     uint32_t may_miss_light;
@@ -55,7 +56,8 @@ typedef struct pt_compared_region {
     double light[3];      /**< mean of the second image */
     double difference[3]; /**< mean of the first image minus mean of the second image */
     double deviation[3];  /**< standard deviation of the difference */
-    double probability;   /**< equal light differs so much in a region of this size with at most this probability */
+    double
+        probability; /**< upper bound of the probability that equal light differs as much in some region of this size */
     /** Smallest change of the region's light, a fraction, that the test finds with 99% probability; INFINITY if none
      * would. */
     double smallest_change;
@@ -65,7 +67,7 @@ typedef struct pt_compared_region {
 typedef struct pt_comparison {
     uint32_t struct_size; /**< sizeof(pt_comparison) */
     uint32_t light;       /**< PT_LIGHT_* */
-    double probability;   /**< equal light differs so much with at most this probability */
+    double probability;   /**< upper bound of the probability that equal light differs as much */
     /** Smallest change of all light, a fraction, that the test finds with 99% probability; INFINITY if it finds
      * none. */
     double smallest_change;

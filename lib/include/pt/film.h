@@ -33,7 +33,8 @@ PT_API pt_result pt_save_film(pt_context *context, void *data, uint64_t *size_by
  *
  * One thread at a time. PT_ERROR_INCOMPATIBLE: the bytes are not a film, are damaged, belong to another picture, or
  * have samples that the context already has. The message has a line for each difference. PT_ERROR_INVALID_STATE: scene,
- * camera or render settings are missing. PT_ERROR_OUT_OF_DEVICE_MEMORY: the sums do not fit twice. */
+ * camera or render settings are missing. PT_ERROR_OUT_OF_DEVICE_MEMORY: the device has no room for a second copy of the
+ * sums. */
 PT_API pt_result pt_add_film(pt_context *context, const void *data, uint64_t size_bytes);
 
 /* ---- Films without a context ------------------------------------------------------------------------------------ */
@@ -43,7 +44,7 @@ PT_API pt_result pt_add_film(pt_context *context, const void *data, uint64_t siz
  * The caller owns it from pt_open_film to pt_close_film. Only one thread at a time may use a film. */
 typedef struct pt_film pt_film;
 
-/** The picture of a film, and the part of it in the film. */
+/** The picture of a film, and the rectangle of it that the film has. */
 typedef struct pt_film_info {
     uint32_t struct_size;     /**< sizeof(pt_film_info) */
     uint32_t width;           /**< the whole image's width, pixels */
@@ -90,7 +91,7 @@ PT_API void pt_close_film(pt_film *film);
 
 /** Adds the samples of another film, given as bytes. It may have other pixels of the image. Films add up to the same
  * bits in any order. One thread at a time. PT_ERROR_INCOMPATIBLE: the bytes are not a film, are damaged, belong to
- * another picture, or have samples that a pixel of the film already has. The message has a line for each difference. */
+ * another picture, or have samples that a pixel of the film already has. */
 PT_API pt_result pt_merge_film(pt_film *film, const void *data, uint64_t size_bytes);
 
 /** Writes the same bytes as pt_save_film for a context with the same samples. data and *size_bytes are as for
@@ -141,16 +142,16 @@ PT_API pt_result pt_get_film_stats(const pt_film *film, pt_stats *stats);
 PT_API pt_result pt_get_film_error_estimate(const pt_film *film, pt_error_estimate *error);
 
 /** Decides which samples a film needs next to reach a target error, as pt_accumulate does with PT_SAMPLING_ADAPTIVE.
- * Other machines can then take them (pt_accumulate_info.tile_samples).
+ * Other machines can then take these samples (pt_accumulate_info.tile_samples).
  *
  * The film must have all pixels of an image, or of whole rows of one, with a first row that is a multiple of 8. Tiles
  * are the squares of 8 x 8 pixels of pt_accumulate_info.
  * - target_error: > 0 and finite
  * - most: the most samples that a pixel may have
- * - goals: receives for each tile how many samples its pixels need, never fewer than they have. If it is NULL, *count
- *   receives the number of tiles. Otherwise *count must be that number.
+ * - goals: receives for each tile how many samples its pixels need, never fewer than they have. If goals is NULL,
+ *   *count receives the number of tiles. Otherwise *count must be that number.
  *
- * Decisions depend only on the samples and stay in the film. Later calls on it, or on a saved copy, continue from
+ * Decisions depend only on the samples and stay in the film. Later calls on the film, or on a saved copy, continue from
  * there. A context on a CPU with the same limit gets the same film; on a GPU it gets another one.
  *
  * PT_PENDING: some tiles need more samples. PT_TARGET_REACHED: the film has the target error. PT_OK: the film does not

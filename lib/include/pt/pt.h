@@ -118,8 +118,8 @@ enum {
  *   radius.
  *
  * Spheres in a tree (PT_FEATURE_TREE) are merged only if the tree stores equal numbers for them. The camera sees the
- * largest of concentric ones. It may see the inside of a sphere's surface that is nearer than 2^-22 of the radius plus
- * 2^-28 of the extent of all spheres in the tree. */
+ * largest of concentric spheres. It may see the inside of a sphere's surface that is nearer than 2^-22 of the radius
+ * plus 2^-28 of the extent of all spheres in the tree. */
 typedef struct pt_sphere {
     double center[3]; /**< at time 0 */
     double radius;    /**< > 0 */
@@ -147,7 +147,7 @@ enum {
  * fields are 0, the property has its default. */
 typedef struct pt_column {
     const void *data;      /**< NULL only if all fields are 0 */
-    uint32_t stride_bytes; /**< < 2^31; at least the size of one value, or 0: one value for all spheres */
+    uint32_t stride_bytes; /**< at least the size of a value and < 2^31, or 0: one value for all spheres */
     uint32_t type;         /**< PT_TYPE_* */
 } pt_column;
 
@@ -267,7 +267,7 @@ enum {
 /** The default of pt_render.max_path_length. */
 #define PT_DEFAULT_MAX_PATH_LENGTH 6u
 
-/** The size of the image, and how it is made.
+/** The size of the image and the method of rendering.
  *
  * An image too large for a device can be rendered in pieces of rows with the same bits. Each piece is read back as an
  * image. */
@@ -307,9 +307,9 @@ typedef struct pt_accumulate_info {
      * a sample of all pixels. It cannot interrupt a driver that builds a kernel (pt_prepare). */
     pt_progress_fn progress;
     void *progress_user; /**< argument of progress */
-    /** 0: none. Otherwise the call returns PT_TARGET_REACHED once pt_error_estimate.relative_rmse_high is at most this
-     * and pixels with lamps smaller than a pixel have enough samples to hit them. It returns PT_OK if sample_count runs
-     * out first, or if all pixels that need more have sample_limit samples. Finite, >= 0.
+    /** 0: none. Otherwise the call returns PT_TARGET_REACHED once pt_error_estimate.relative_rmse_high is at most this.
+     * Pixels with lamps smaller than a pixel must also have enough samples to hit them. It returns PT_OK if
+     * sample_count runs out first, or if all pixels that need more have sample_limit samples. Finite, >= 0.
      *
      * The error is checked when all pixels have a number of samples that pt_next_check returns. If tiles differ
      * (PT_SAMPLING_ADAPTIVE), it is checked after each round of sampling. So with the same sample_limit, the final
@@ -323,9 +323,9 @@ typedef struct pt_accumulate_info {
     /** NULL: all pixels get the same number, or as the target error decides. Otherwise each tile takes this many
      * samples, 0 to sample_count: the first ones that it lacks, from pt_render.first_sample on. target_error must be 0.
      * Tiles are squares of 8 x 8 pixels, row by row from the top left of the rendered rows, smaller at the right and
-     * lower edges. Read only during the call. */
+     * lower edges. */
     const uint32_t *tile_samples;
-    uint32_t tile_count; /**< elements of tile_samples: all tiles, or 0 */
+    uint32_t tile_count; /**< number of tiles, or 0 if tile_samples is NULL */
     uint32_t reserved2;  /**< 0 */
 } pt_accumulate_info;
 
@@ -339,7 +339,7 @@ enum {
     PT_QUANTITY_STANDARD_ERROR = 1,
     PT_QUANTITY_SAMPLE_COUNT = 2, /**< number of the pixel's samples, rounded to float32, the same in all channels */
     /* The next four describe the first hit of camera rays in the present scene. They need no samples: a separate kernel
-     * computes them at every read. For them a lens is a pinhole, so nothing is out of focus. */
+     * computes them at every read. They treat a lens as a pinhole, so nothing is out of focus. */
     /** depth along the viewing direction: dot(x - camera.position, unit viewing direction), the same in all channels. x
      * is the first hit of the ray through the pixel's center, halfway between shutter_open and shutter_close. For
      * parallel rays, the distance from their start. INFINITY if the ray hits nothing. */
@@ -430,7 +430,7 @@ typedef struct pt_create_info {
     uint32_t submit_milliseconds; /**< intended duration of a submission, [1, 1000]; default 50 */
     uint32_t reserved;            /**< 0 */
     /** NULL: the context makes its own instance and devices. Otherwise it uses only this device, see pt/vulkan.h.
-     * device must then be NULL, and PT_CREATE_VALIDATION not set. Read only by pt_create. */
+     * device must then be NULL, and PT_CREATE_VALIDATION not set. */
     const pt_vulkan *vulkan;
     const char *shader_dir; /**< a folder of changed GLSL files (pt/shaders.h); NULL or empty: the library's kernels */
     /** Functions that keep compiled kernels, so that later processes start sooner. Either may be NULL. pt_create calls
@@ -439,7 +439,7 @@ typedef struct pt_create_info {
      * pt_get_error_estimate. */
     pt_load_kernels_fn load_kernels;
     pt_store_kernels_fn store_kernels; /**< see load_kernels */
-    void *kernels_user;                /**< argument of both */
+    void *kernels_user;                /**< argument of both functions */
 } pt_create_info;
 
 /** Version of the library, like PT_VERSION. Any thread; never fails. */
@@ -481,8 +481,7 @@ PT_API void pt_destroy(pt_context *context);
  * their colors, the call takes half the time.
  *
  * One thread at a time. PT_CANCELLED: pt_scene.progress asked to stop. PT_ERROR_INVALID_SCENE: the scene breaks a rule.
- * The message has a line for each of the first eight broken rules and counts the rest. Example:
- * "spheres[3].radius = -1: must be > 0". */
+ * The message has a line for each of the first eight broken rules and counts the rest. */
 PT_API pt_result pt_set_scene(pt_context *context, const pt_scene *scene);
 
 /** Copies a camera into the context and discards the samples. One thread at a time. */

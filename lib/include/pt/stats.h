@@ -47,7 +47,7 @@ typedef struct pt_stats {
 enum {
     PT_UNCERTAIN_RMSE = 1, /**< rmse comes from fewer than 4 pixels: rare bright samples, or a small lamp */
     /** relative_rmse comes from fewer than 4 pixels, or from light that only single samples have found. Such light may
-     * be so rare that the square is three times as large. */
+     * be so rare that the true square is three times as large. */
     PT_UNCERTAIN_RELATIVE_RMSE = 2,
     /** more than a fifth of the square of relative_rmse is expected from dark pixels beside very bright ones, as light
      * that no sample has found. */
@@ -64,8 +64,8 @@ enum {
 /** The image's error, estimated without a reference (shaders/README.md, section 11).
  *
  * With the image x and its limit r, rmse is the root of the mean of (x - r)^2 over pixels and channels, and
- * relative_rmse the root of the mean of (x - r)^2 / (r^2 + 0.01). Bounds have 95% confidence. Light that no sample has
- * found is not included, except small lamps in view.
+ * relative_rmse the root of the mean of (x - r)^2 / (r^2 + 0.01). The bounds hold with 95% confidence. Light that no
+ * sample has found is not included, except small lamps in view.
  *
  * With fewer than 16 samples, or if more than one sample in 2^20 was left out, nothing is known: lower bounds are 0,
  * the other values INFINITY. */

@@ -40,8 +40,8 @@ void handle(int signal, void (*handler)(int)) {
 void prepare_streams() {
     for (const int stream : {standard_input, standard_output, standard_error}) {
         if (fcntl(stream, F_GETFD) == -1 && errno == EBADF) {
-            // open() takes the lowest free number, which is the stream's. Its mode makes uses of the stream still fail
-            // with EBADF.
+            // open() takes the lowest free number, which is the stream's. The wrong mode makes reads and writes of the
+            // stream fail with EBADF as before.
             static_cast<void>(open("/dev/null", stream == standard_input ? O_WRONLY : O_RDONLY));
         }
     }
