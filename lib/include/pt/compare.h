@@ -38,8 +38,8 @@ typedef struct pt_compare_info {
     uint32_t struct_size; /**< sizeof(pt_compare_info) */
     uint32_t width;       /**< pixels of both images, >= 1 */
     uint32_t height;      /**< pixels, >= 1; width * height <= 2^32 - 1 */
-    /** Number of this comparison, from 1, if images are compared repeatedly while they grow. Comparison k has the
-     * rate / (k (k + 1)), so all together have the rate. 0: the only comparison. */
+    /** Number of this comparison, from 1, if images are compared repeatedly while samples are added. Comparison k has
+     * the rate / (k (k + 1)), so all together have the rate. 0: the only comparison. */
     uint32_t look;
     pt_compared_image first;  /**< the image to be judged */
     pt_compared_image second; /**< the reference: changes are fractions of its light */

@@ -30,8 +30,8 @@ typedef struct pt_denoise_info {
     const float *albedo; /**< PT_QUANTITY_ALBEDO */
     const float *normal; /**< PT_QUANTITY_NORMAL */
     float *denoised;     /**< receives the picture; must differ from the other images */
-    /** File of Open Image Denoise 2. NULL: the system's libOpenImageDenoise.so.2. It stays loaded from the first call.
-     */
+    /** File of Open Image Denoise 2. NULL: the system's libOpenImageDenoise.so.2. It stays loaded from the first
+     * call. */
     const char *library;
 } pt_denoise_info;
 

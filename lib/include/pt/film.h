@@ -149,7 +149,7 @@ PT_API pt_result pt_get_film_error_estimate(const pt_film *film, pt_error_estima
  * - target_error: > 0 and finite
  * - most: the most samples that a pixel may have
  * - goals: receives for each tile how many samples its pixels need, never fewer than they have. If goals is NULL,
- *   *count receives the number of tiles. Otherwise *count must be that number.
+ *   *count receives the number of tiles. Otherwise *count must be the number of tiles.
  *
  * Decisions depend only on the samples and stay in the film. Later calls on the film, or on a saved copy, continue from
  * there. A context on a CPU with the same limit gets the same film; on a GPU it gets another one.

@@ -102,10 +102,9 @@ typedef struct pt_material {
 
 /** Bits of pt_material.flags. */
 enum {
-    /** camera rays pass through surfaces of the material. All other rays hit them. So a lamp can be invisible, or a
-     * room's wall. Hidden spheres are outside the tree (PT_FEATURE_TREE) and are tested one by one, so there should be
-     * few. If surfaces are merged (pt_sphere), the first one decides.
-     */
+    /** camera rays pass through surfaces of the material. All other rays hit them. So a lamp or a room's wall can be
+     * invisible. Hidden spheres are outside the tree (PT_FEATURE_TREE) and are tested one by one, so there should be
+     * few. If surfaces are merged (pt_sphere), the first one decides. */
     PT_MATERIAL_HIDDEN_FROM_CAMERA = 1
 };
 
@@ -227,8 +226,7 @@ typedef struct pt_camera {
     double shutter_close; /**< light is gathered evenly from open to close; both 0: the instant 0 */
     /** Orthographic: full height of the view; it has no default. Height and width (height times the image's
      * width / height) lie in [1e-18, 1e18]. If the width does not, pt_accumulate returns PT_ERROR_UNSUPPORTED.
-     * Perspective: 0.
-     */
+     * Perspective: 0. */
     double vertical_extent;
     /** Perspective: diameter of a thin lens about position, perpendicular to the viewing direction, at most 2 * focus;
      * 0: a pinhole. At depth z, a pixel's rays spread over a disc of the diameter aperture * |z / focus - 1|.
@@ -304,7 +302,7 @@ typedef struct pt_accumulate_info {
     /** NULL, or a function that pt_accumulate calls after every submission to a device. NULL for pt_start.
      *
      * If it asks to stop, the call still ends the current submissions, at most two per device, and those that complete
-     * a sample of all pixels. It cannot interrupt a driver that builds a kernel (pt_prepare). */
+     * a sample of all pixels. The function cannot interrupt a driver that builds a kernel (pt_prepare). */
     pt_progress_fn progress;
     void *progress_user; /**< argument of progress */
     /** 0: none. Otherwise the call returns PT_TARGET_REACHED once pt_error_estimate.relative_rmse_high is at most this.
@@ -405,7 +403,7 @@ typedef void (*pt_log_fn)(void *user, int32_t level, const char *line);
  * and 0. Damaged bytes, and those of another driver or version, are ignored. */
 typedef uint64_t (*pt_load_kernels_fn)(void *user, const char *key, void *data, uint64_t size_bytes);
 
-/** Stores a driver's compiled kernels under a key, in place of earlier ones. It may fail.
+/** Stores a driver's compiled kernels under a key, in place of earlier ones. Storing may fail.
  *
  * key has 32 hexadecimal digits and can be a file's name. It depends on the device's model, its driver and the kernels'
  * code. data is valid during the call.
