@@ -25,8 +25,8 @@ enum {
 typedef struct pt_compared_image {
     const float *radiance; /**< PT_QUANTITY_RADIANCE in PT_FORMAT_RGB32F, row by row without gaps; finite */
     uint32_t min_samples;  /**< fewest samples of a pixel; 0 if unknown */
-    uint32_t
-        max_samples;  /**< most samples of a pixel; must equal min_samples, because PT_SAMPLING_ADAPTIVE shifts means */
+    /** Most samples of a pixel. They must equal min_samples, because PT_SAMPLING_ADAPTIVE shifts means. */
+    uint32_t max_samples;
     uint32_t sampler; /**< PT_SAMPLER_*, 0 if unknown; not PT_SAMPLER_HALTON, whose errors are not random */
     /** Not 0: samples may have missed lamps (PT_UNCERTAIN_UNMET). If only this image has the flag, the test ignores
      * that it is darker. */
@@ -56,10 +56,10 @@ typedef struct pt_compared_region {
     double light[3];      /**< mean of the second image */
     double difference[3]; /**< mean of the first image minus mean of the second image */
     double deviation[3];  /**< standard deviation of the difference */
-    double
-        probability; /**< upper bound of the probability that equal light differs as much in some region of this size */
-    /** Smallest change of the region's light, a fraction, that the test finds with 99% probability; INFINITY if none
-     * would. */
+    /** Upper bound of the probability that equal light differs as much in some region of this size. */
+    double probability;
+    /** Smallest change of the region's light, a fraction, that the test finds with 99% probability; INFINITY if it
+     * finds none. */
     double smallest_change;
 } pt_compared_region;
 
