@@ -20,7 +20,7 @@ void see_plane(inout Hit hit, vec3 origin, vec3 direction, uint plane, float tim
     keep_closer(hit, plane_distance(level_at(plane, origin, time), direction, false, false, height), plane);
 }
 
-// The camera does not see a range of the emitting spheres and the last spheres.
+// Two ranges of spheres are hidden from the camera: some of the emitting ones, and the last ones.
 const bool EMITTERS_HIDE = HIDDEN_LAMPS + HIDDEN_SKIES > 0u;
 const uint FIRST_HIDDEN = EMITTERS_HIDE ? WALKED_LAMPS - HIDDEN_LAMPS : 0u;
 const uint AFTER_HIDDEN = EMITTERS_HIDE ? WALKED_LAMPS + HIDDEN_SKIES : 0u;

@@ -71,7 +71,7 @@ vec2 lobe_cos_sin(float n, float u)
     return narrow_cos_sin(one_minus_exp2(log2_one_minus(u) / (n + 1.0)));
 }
 
-// May be below the horizon, where the reflection is 0. reflection() has the density of the whole lobe.
+// The direction may be below the horizon, where the reflection is 0. reflection() has the density of the whole lobe.
 vec3 sample_direction(Material material, Vertex vertex, vec2 place, float lobe)
 {
     if (ESTIMATOR == ESTIMATOR_UNIFORM)

@@ -20,7 +20,7 @@ PT_SPECIALIZED(GLOSS, 5, 1)               // 1: some material has a lobe
 PT_SPECIALIZED(MOTION, 6, 1)              // 1: some sphere moves
 PT_SPECIALIZED(SCENE_SOURCE, 7, SCENE_IN_UNIFORM)
 PT_SPECIALIZED(SAMPLER, 8, SAMPLER_RANDOM)
-PT_SPECIALIZED(TABLE_BLOCKS, 9, 0)  // point table's blocks of a sample with one branch
+PT_SPECIALIZED(TABLE_BLOCKS, 9, 0)  // blocks in the point table, of a sample and one of its branches
 PT_SPECIALIZED(BRANCH_COUNT, 10, 1) // branches at a path's first vertex
 PT_SPECIALIZED(CURVATURE, 11, 0)    // 1: some plane is curved
 PT_SPECIALIZED(INSIDE, 13, 1)       // 1: paths may be inside a sphere, like the camera
