@@ -335,7 +335,7 @@ pt_result pt_get_stats(pt_context *context, pt_stats *stats) {
 
 pt_result pt_get_warning(pt_context *context, pt_broken_rule *warning) {
     return pt::guard_context(context, [&](pt::Renderer &renderer) {
-        pt::struct_size_of(warning, "warning"); // checked before the work
+        pt::struct_size_of(warning, "warning"); // refuses a wrong struct before the work
         const pt::BrokenRule *rule = renderer.warning();
         pt::copy_out(rule ? pt::shown(*rule) : pt_broken_rule{}, warning, "warning");
     });
@@ -343,7 +343,7 @@ pt_result pt_get_warning(pt_context *context, pt_broken_rule *warning) {
 
 pt_result pt_get_error_estimate(pt_context *context, pt_error_estimate *error) {
     return pt::guard_context(context, [&](pt::Renderer &renderer) {
-        pt::struct_size_of(error, "error"); // checked before the work
+        pt::struct_size_of(error, "error"); // refuses a wrong struct before the work
         pt::copy_out(pt::stated(renderer.error_with_lamps()), error, "error");
     });
 }

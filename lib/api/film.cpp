@@ -222,7 +222,7 @@ pt_result pt_get_film_stats(const pt_film *film, pt_stats *stats) {
 
 pt_result pt_get_film_error_estimate(const pt_film *film, pt_error_estimate *error) {
     return pt::guard_film(film, [&](const pt::Film &opened) {
-        pt::struct_size_of(error, "error"); // checked before the work
+        pt::struct_size_of(error, "error"); // refuses a wrong struct before the work
         pt::copy_out(pt::stated(opened.error()), error, "error");
     });
 }

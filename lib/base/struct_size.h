@@ -26,7 +26,7 @@ inline BrokenRule wrong_size(const char *name, std::int64_t index, std::uint32_t
     return {.subject = name, .index = index, .member = "struct_size", .value = std::to_string(size), .rule = rule};
 }
 
-// Reads and checks struct_size. name and index are for messages; index is that of an array's element, or -1. Throws
+// Reads and checks struct_size. name and index are for messages. index is -1 outside arrays. Throws
 // PT_ERROR_INVALID_ARGUMENT.
 inline std::uint32_t struct_size_of(const void *user, const char *name, std::int64_t index = -1) {
     require_not_null(user, name);
@@ -52,8 +52,8 @@ inline void require_known(const void *user, std::uint32_t size, std::size_t know
                                        std::to_string(known) + " bytes of the struct"));
 }
 
-// Copies a struct, as copy_struct_from_user of Linux does. A shorter struct is extended by zeros. In a longer one the
-// unknown part must be zero.
+// Copies a struct, as copy_struct_from_user of Linux does. A shorter struct is extended by zeros. A longer one must
+// have zeros in the unknown part.
 template <typename T>
 T copy_in(const T *user, const char *name, std::int64_t index = -1) {
     const std::uint32_t size = struct_size_of(user, name, index);

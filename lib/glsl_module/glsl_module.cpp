@@ -36,7 +36,7 @@ std::string read_source(const fs::path &path) {
     } catch (const platform::InputError &error) {
         throw std::runtime_error(path.string() + ": " + error.what());
     }
-    constexpr std::string_view byte_order_mark = "\xef\xbb\xbf"; // editors may add one to UTF-8
+    constexpr std::string_view byte_order_mark = "\xef\xbb\xbf"; // some editors add it
     if (text.starts_with(byte_order_mark))
         text.erase(0, byte_order_mark.size());
     return text;
@@ -65,8 +65,8 @@ public:
         }
     }
 
-    // Called for #include <name>, and after includeLocal has found no file. The result's empty name means that there is
-    // no file, and its text is the reason.
+    // Called for #include <name>, and after includeLocal has found no file. The result's empty name stands for a
+    // missing file, and its text is the reason.
     IncludeResult *includeSystem(const char * /*name*/, const char * /*file*/, std::size_t /*depth*/) override {
         const std::string reason = std::exchange(reason_, "");
         return hand_over("",

@@ -3,7 +3,7 @@
  *
  * The test looks at the difference of two images in the whole picture and in squares of 16, 32, 64, ... pixels. It
  * compares this difference with the differences of single pixels, whose errors are independent (shaders/README.md,
- * section 11). With the same seed in both images, the test finds smaller changes. */
+ * section 11). The test finds smaller changes if both images have the same seed. */
 #ifndef PT_COMPARE_H
 #define PT_COMPARE_H
 

@@ -101,7 +101,7 @@ PT_API pt_result pt_merge_film(pt_film *film, const void *data, uint64_t size_by
 PT_API pt_result pt_write_film(const pt_film *film, void *data, uint64_t *size_bytes);
 
 /** Receives the next bytes of a film, valid until it returns. Return 0 to go on. Any other value ends pt_stream_film.
- * user is its argument. */
+ * user is the argument of pt_stream_film. */
 typedef int32_t (*pt_take_bytes_fn)(void *user, const void *data, uint64_t size_bytes);
 
 /** Passes the bytes of pt_write_film to take, in order and in pieces of at most a megabyte. take must not call any

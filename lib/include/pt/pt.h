@@ -248,7 +248,7 @@ enum {
     PT_ESTIMATOR_UNIFORM = 1, /**< directions uniform on the hemisphere; lamps are found by chance */
     PT_ESTIMATOR_COSINE = 2,  /**< directions in proportion to the cosine to the normal; lamps are found by chance */
     PT_ESTIMATOR_BSDF = 3,    /**< directions by the material, cosine and specular lobe; lamps are found by chance */
-    PT_ESTIMATOR_LIGHT = 4,   /**< lamps sampled by solid angle; directions as in bsdf find only other light */
+    PT_ESTIMATOR_LIGHT = 4,   /**< lamps sampled by solid angle; directions as in bsdf for all other light */
     PT_ESTIMATOR_MIS = 5      /**< lamps sampled by solid angle and directions as in bsdf, combined by weights */
 };
 
@@ -295,7 +295,7 @@ enum {
 /** How many samples pt_accumulate is to add. */
 typedef struct pt_accumulate_info {
     uint32_t struct_size; /**< sizeof(pt_accumulate_info) */
-    /** Samples to add to every pixel, >= 1; their indices stay below 2^32. With a target_error, the pixels that have
+    /** Samples to add to every pixel, >= 1; their indices stay below 2^32. If target_error is set, the pixels that have
      * most samples get at most this number. 0 then adds samples only to the other pixels, which a stopped call may have
      * left behind. */
     uint32_t sample_count;
@@ -314,14 +314,14 @@ typedef struct pt_accumulate_info {
      * samples of each pixel do not depend on the split over calls, devices and saved films. */
     double target_error;
     uint32_t sampling; /**< PT_SAMPLING_* */
-    /** With a target_error: the most samples of a pixel after this call and later ones. While pixels that need more
-     * samples are at the limit, the other pixels take more, until all are at the limit. If it is smaller than the
-     * number that this call may reach, that number is the limit. Without a target_error: 0. */
+    /** The most samples of a pixel after this call and later ones, if target_error is set; otherwise 0. While pixels
+     * that need more samples are at the limit, the other pixels take more, until all are at the limit. If it is smaller
+     * than the number that this call may reach, that number is the limit. */
     uint32_t sample_limit;
-    /** NULL: all pixels get the same number, or as the target error decides. Otherwise each tile takes this many
-     * samples, 0 to sample_count: the first ones that it lacks, from pt_render.first_sample on. target_error must be 0.
-     * Tiles are squares of 8 x 8 pixels, row by row from the top left of the rendered rows, smaller at the right and
-     * lower edges. */
+    /** NULL: all pixels get the same number, or as the target error decides. Otherwise element i is the number of
+     * samples that tile i takes, 0 to sample_count. A tile takes the first samples that it lacks, from
+     * pt_render.first_sample on. target_error must be 0. Tiles are squares of 8 x 8 pixels, row by row from the top
+     * left of the rendered rows, smaller at the right and lower edges. */
     const uint32_t *tile_samples;
     uint32_t tile_count; /**< number of tiles, or 0 if tile_samples is NULL */
     uint32_t reserved2;  /**< 0 */
@@ -330,10 +330,10 @@ typedef struct pt_accumulate_info {
 /** Values of pt_image.quantity. */
 enum {
     PT_QUANTITY_RADIANCE = 0, /**< mean of the samples */
-    /** standard error of that mean, from the difference between the means of two parts of the samples: half of the
-     * difference if the parts are equal. The first part has the largest power of two below the number of samples. Up to
-     * 8 samples the value is INFINITY. It has one degree of freedom, so a quarter of all values are below a third of
-     * the true one. */
+    /** standard error of the mean. It comes from the difference between the means of two parts of the samples, and is
+     * half of the difference if the parts are equal. The first part has the largest power of two below the number of
+     * samples. Up to 8 samples the value is INFINITY. It has one degree of freedom, so a quarter of all values are
+     * below a third of the true one. */
     PT_QUANTITY_STANDARD_ERROR = 1,
     PT_QUANTITY_SAMPLE_COUNT = 2, /**< number of the pixel's samples, rounded to float32, the same in all channels */
     /* The next four describe the first hit of camera rays in the present scene. They need no samples: a separate kernel
@@ -370,7 +370,7 @@ enum {
     PT_FORMAT_R32UI = 3 /**< one uint32_t: 4 bytes. For PT_QUANTITY_OBJECT only */
 };
 
-/** The caller's memory for an image or a rectangle of it. A rectangle's pixels equal those of the whole image. */
+/** The caller's memory for an image or a rectangle of it. A rectangle has the same values as in the whole image. */
 typedef struct pt_image {
     uint32_t struct_size; /**< sizeof(pt_image) */
     uint32_t quantity;    /**< PT_QUANTITY_* */
@@ -400,7 +400,7 @@ typedef void (*pt_log_fn)(void *user, int32_t level, const char *line);
 /** Reads bytes that pt_store_kernels_fn has stored under a key, perhaps in another process.
  *
  * Returns the number of bytes, 0 if there are none. Writes them to data if size_bytes suffices. The first call has NULL
- * and 0. Damaged bytes, and those of another driver or version, are ignored. */
+ * and 0. The library ignores bytes that are damaged or come from another driver or version. */
 typedef uint64_t (*pt_load_kernels_fn)(void *user, const char *key, void *data, uint64_t size_bytes);
 
 /** Stores a driver's compiled kernels under a key, in place of earlier ones. Storing may fail.
@@ -413,8 +413,8 @@ typedef void (*pt_store_kernels_fn)(void *user, const char *key, const void *dat
 /** Bits of pt_create_info.flags. */
 enum {
     PT_CREATE_VALIDATION = 1, /**< the Khronos validation layer reports to log; absent: PT_ERROR_UNSUPPORTED */
-    /** no kernels with a scene's numbers as constants. Such a kernel is up to 1.5 times as fast on CPUs, but every
-     * scene and camera needs a new one. Without the flag, scenes that are rendered for some time get one. */
+    /** no kernels with a scene's numbers as constants. They are up to 1.5 times as fast on CPUs, but every scene and
+     * camera needs new ones. Without the flag, scenes that are rendered for some time get them. */
     PT_CREATE_NO_SCENE_KERNELS = 2
 };
 
@@ -440,7 +440,7 @@ typedef struct pt_create_info {
     void *kernels_user;                /**< argument of both functions */
 } pt_create_info;
 
-/** Version of the library, like PT_VERSION. Any thread; never fails. */
+/** The library's version, like PT_VERSION. Any thread; never fails. */
 PT_API uint32_t pt_version(void);
 
 /** Name of a result as in this header ("PT_ERROR_NO_DEVICE"); "unknown result" for other numbers. A static string,
@@ -456,8 +456,8 @@ PT_API const char *pt_result_name(pt_result result);
  * PT_ERROR_UNSUPPORTED: there is no validation layer. PT_ERROR_SHADER: a file of shader_dir does not compile. */
 PT_API pt_result pt_create(const pt_create_info *info, pt_context **context);
 
-/** Message of the last failed call on this context, "" if there is none. It is valid until the next call. Call this on
- * the thread that uses the context.
+/** Message of the last failed call on this context, or "". It is valid until the next call. Call this on the thread
+ * that uses the context.
  *
  * If this thread's last call was refused because another call was running, this is the message of that refusal. While
  * another thread is in a call, the message says so.
@@ -469,8 +469,8 @@ PT_API const char *pt_last_error(const pt_context *context);
 /** Waits for the device and frees everything. NULL is allowed. Call it from one thread, after all other calls on the
  * context. It never fails.
  *
- * It frees nothing in a forked child, in a callback of the context, or while another thread is in a call on it. In the
- * last two cases the context can be destroyed later, and the log and pt_last_error say so. */
+ * It frees nothing in a forked child, in a callback of the context, or while another thread is in a call on it. The log
+ * and pt_last_error report the last two cases, and the context can then be destroyed later. */
 PT_API void pt_destroy(pt_context *context);
 
 /** Copies a scene into the context and discards the samples.
@@ -488,8 +488,7 @@ PT_API pt_result pt_set_camera(pt_context *context, const pt_camera *camera);
 /** Copies render settings into the context and discards the samples.
  *
  * Allocates 112 bytes a pixel on the device. One thread at a time. PT_ERROR_UNSUPPORTED: the device has no buffers of
- * that size. PT_ERROR_OUT_OF_DEVICE_MEMORY: it has too little free memory. In both cases, render fewer rows at a
- * time. */
+ * that size. PT_ERROR_OUT_OF_DEVICE_MEMORY: it lacks memory. In both cases, render fewer rows at a time. */
 PT_API pt_result pt_set_render(pt_context *context, const pt_render *render);
 
 /** Builds the kernels for the present scene, camera and render settings ahead of pt_accumulate. It cannot be

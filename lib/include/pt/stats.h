@@ -46,7 +46,7 @@ typedef struct pt_stats {
  * upper bound. More samples make an error certain. */
 enum {
     PT_UNCERTAIN_RMSE = 1, /**< rmse comes from fewer than 4 pixels: rare bright samples, or a small lamp */
-    /** relative_rmse comes from fewer than 4 pixels, or from light that only single samples have found. Such light may
+    /** relative_rmse comes from fewer than 4 pixels, or from light that only single samples have found. This light may
      * be so rare that the true square is three times as large. */
     PT_UNCERTAIN_RELATIVE_RMSE = 2,
     /** more than a fifth of the square of relative_rmse is expected from dark pixels beside very bright ones, as light
@@ -56,16 +56,16 @@ enum {
      * - Less than half of a pixel's samples hit a lamp in view, because it is small, moves, is out of focus or shines
      *   through translucent spheres. By their sizes such lamps add more than the samples show, and fewer than 6 samples
      *   are expected to have hit them.
-     * - Lamps (uniform, cosine, bsdf) or lobes (uniform, cosine) are found by chance, and fewer than a thousand samples
-     *   in all pixels have hit one that matters. */
+     * - Lamps (uniform, cosine, bsdf) or lobes (uniform, cosine) are found by chance. Fewer than a thousand samples in
+     *   all pixels have hit one that matters. */
     PT_UNCERTAIN_UNMET = 8
 };
 
 /** The image's error, estimated without a reference (shaders/README.md, section 11).
  *
- * With the image x and its limit r, rmse is the root of the mean of (x - r)^2 over pixels and channels, and
- * relative_rmse the root of the mean of (x - r)^2 / (r^2 + 0.01). The bounds hold with 95% confidence. Light that no
- * sample has found is not included, except small lamps in view.
+ * rmse is the root of the mean of (x - r)^2 over pixels and channels, for the image x and its limit r. relative_rmse is
+ * the root of the mean of (x - r)^2 / (r^2 + 0.01). The bounds hold with 95% confidence. Light that no sample has found
+ * is not included, except small lamps in view.
  *
  * With fewer than 16 samples, or if more than one sample in 2^20 was left out, nothing is known: lower bounds are 0,
  * the other values INFINITY. */

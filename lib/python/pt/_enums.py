@@ -11,7 +11,7 @@ class Quantity(enum.IntEnum):
     """A quantity of an image."""
 
     RADIANCE = 0  # mean of the samples
-    STANDARD_ERROR = 1
+    STANDARD_ERROR = 1  # standard error of the mean
     SAMPLE_COUNT = 2  # number of the pixel's samples, rounded to float32, the same in all channels
     DEPTH = 3  # depth along the viewing direction
     NORMAL = 4  # unit normal in world coordinates, on the side of the camera
