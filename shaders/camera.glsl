@@ -11,8 +11,7 @@ struct CameraRay {
     float time; // [0, 1] from shutter open to closed
 };
 
-// Offset from the image's middle in pixels, right and down. place is in [0, 1)^2 within the pixel. The pixel's corner
-// has multiples of 1/2, which are exact.
+// Offset from the image's middle in pixels, right and down. place is in [0, 1)^2 within the pixel.
 vec2 image_place(CameraView camera, uvec2 pixel, vec2 place)
 {
     return 0.5 * vec2(ivec2(2u * pixel) - ivec2(camera.width, camera.height)) + place;

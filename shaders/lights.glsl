@@ -35,7 +35,6 @@ LampView view_lamp(Vertex vertex, uint lamp, float time)
 // Fraction of choices that are uniform (shaders/README.md, section 6).
 const float UNIFORM_SHARE = 0.1;
 
-// The lamps as seen from a vertex.
 const bool KEEP_VIEWS = LAMP_COUNT <= EVERY_LAMP_LIMIT;
 
 struct Lamps {

@@ -11,7 +11,7 @@ const float PI = 3.14159265358979;
 const float NUMBER_STEP = 1.0 / 16777216.0;
 const float LARGEST_NUMBER = 1.0 - NUMBER_STEP;
 
-// 1.5 * 2^23. For |x| < 2^22 the low bits of x + ROUNDING_BIAS are round(x). Conversions to int may be slow.
+// 1.5 * 2^23. For |x| < 2^22 the low bits of x + ROUNDING_BIAS are round(x).
 const float ROUNDING_BIAS = 12582912.0;
 
 // min() and max() if one argument is not negative. lavapipe compares bits faster, and their order is the same.

@@ -165,12 +165,8 @@ PT_FUNCTION WholeNumber weighted_difference(uvec4 sum_a, uint a, uvec4 sum_b, ui
     return number;
 }
 
-// The standard error of the mean of both parts, with sums A and B of a, b >= 1 samples (shaders/README.md, section 11),
-// is
-//
-// s = |A / a - B / b| sqrt(a b) / (a + b) = |A b - B a| / ((a + b) sqrt(a b)).
-//
-// The numerator is exact. Root and divisor are cut to 32 bits, with relative errors below 2^-31. So the result is
+// The divisor (a + b) sqrt(a b) of the standard error |A b - B a| / ((a + b) sqrt(a b)) (shaders/README.md, section
+// 11). The numerator is exact. Root and divisor are cut to 32 bits, with relative errors below 2^-31. So the result is
 // within .52 of its last place.
 struct ErrorDivisor {
     uint divisor; // its top bit is set

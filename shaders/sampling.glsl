@@ -46,9 +46,8 @@ vec2 concentric_disc(vec2 u)
     return radius * sign(place) * (along_x ? vec2(cosine, sine) : vec2(sine, cosine));
 }
 
-// Turns v so that the z axis becomes the unit vector axis = (x, y, z). The basis (Duff et al., "Building an Orthonormal
-// Basis, Revisited", JCGT 6(1), 2017) has the vectors (1 + s a x^2, s a x y, -s x), (a x y, s + a y^2, -y) and (x, y,
-// z), with s = sign(z) and a = -1 / (s + z).
+// Turns v so that the z axis becomes the unit vector axis (Duff et al., "Building an Orthonormal Basis, Revisited",
+// JCGT 6(1), 2017).
 vec3 rotate_to_axis(vec3 axis, vec3 v)
 {
     float s = axis.z < 0.0 ? -1.0 : 1.0;

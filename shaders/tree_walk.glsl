@@ -1,5 +1,4 @@
-// Intersects rays with tree spheres. The hit is the same as if all spheres were tested: no box with a nearer sphere is
-// skipped, and ties do not depend on the walk's order.
+// Intersects rays with tree spheres. The hit is the same as if all spheres were tested (shaders/README.md, section 3).
 #ifndef TREE_WALK_GLSL
 #define TREE_WALK_GLSL
 
