@@ -15,9 +15,7 @@ MOST_STOPS = 64.0
 
 
 def automatic_exposure(radiance: npt.NDArray[Any]) -> float:
-    """Returns the stops, in hundredths, that bring the average to middle grey: Reinhard, Stark, Shirley, Ferwerda 2002,
-    "Photographic Tone Reproduction for Digital Images", eqs. 1 and 2, for the mean of the channels. Pixels below 1/128
-    of the level have less weight. The level is the mean after clipping values to the mean three times."""
+    """Returns the stops that bring the average to middle grey, as automatic_exposure in cli/image/tone_map.h does."""
     means = radiance.astype(np.float64).mean(axis=2)
     means = means[means > 0]
     if not means.size:

@@ -23,26 +23,26 @@ def parser() -> argparse.ArgumentParser:
                                    allow_abbrev=False)
     command = root.add_subparsers(dest="command", required=True).add_parser(
         "render", allow_abbrev=False, help="render a scene",
-        epilog="All other options are those of `pt render`: --size, --spp, --error, --sampling, --seed, --set, ...")
+        epilog="All other options are as in `pt render`: --size, --spp, --error, --sampling, --seed, --set, ...")
     command.add_argument("scene", metavar="SCENE")
     command.add_argument("-o", "--output", action="append", default=[], metavar="IMAGE")
     command.add_argument("--film", metavar="FILM")
     command.add_argument("--layers", metavar="NAMES")
     where = command.add_mutually_exclusive_group()
-    where.add_argument("--scheduler", metavar="ADDRESS", help="of a Dask cluster, as tls://host:8786")
+    where.add_argument("--scheduler", metavar="ADDRESS", help="address of a Dask cluster, such as tls://host:8786")
     where.add_argument("--local-workers", type=at_least(1, int), metavar="N",
                        help="processes on this machine (default: 2)")
     command.add_argument("--tls", nargs=3, metavar=("CA", "CERT", "KEY"), help="files, for a tls:// scheduler")
-    command.add_argument("--device", help="of each worker, as of pt render")
+    command.add_argument("--device", help="device of each worker, as in pt render")
     command.add_argument("--checkpoint", metavar="FILM")
     command.add_argument("--checkpoint-every", type=at_least(0.01, float), default=30.0, metavar="SECONDS")
     command.add_argument("--resume", action="store_true")
     command.add_argument("--part-seconds", type=at_least(0.1, float), default=5.0)
     command.add_argument("--patience", type=at_least(0.1, float), default=10.0)
     command.add_argument("--wait", type=at_least(1, float), default=300.0, metavar="SECONDS",
-                         help="for a worker that is ready (default: 300)")
+                         help="longest wait for a ready worker (default: 300)")
     command.add_argument("--mixed", action="store_true",
-                         help="take other devices and drivers than the first worker's")
+                         help="accept devices and drivers unlike the first worker's")
     command.add_argument("--frames", metavar="A-B")
     command.add_argument("--skip-existing", action="store_true")
     command.add_argument("-q", "--quiet", action="store_true")

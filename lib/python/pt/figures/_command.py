@@ -23,9 +23,8 @@ from pt.figures._options import Options, two
 from pt.figures._series import frames, turntable
 
 EPILOG = """\
-DATA is of a simulation, a molecule or a point cloud. The camera goes as near as it can with all of every ball in the
-picture; lengths follow from the data, so that their units do not matter. All of --frames and --turntable have one camera and
-one scale, and names with # signs for their number:
+DATA is a simulation, a molecule or a point cloud. The camera is as close as all balls in the picture permit. Units do not
+matter. Pictures of --frames and --turntable share one camera and one scale. # signs in their names become the number:
   ffmpeg -framerate 25 -i f-%03d.png -pix_fmt yuv420p f.mp4    (after -o f-###.png)
 """
 FILMS = (".gif", ".mp4", ".webm", ".mov", ".avi", ".mkv")
@@ -52,16 +51,17 @@ def parser() -> argparse.ArgumentParser:
     command.add_argument("data", metavar="DATA", help="file of particles; - is standard input")
     add = command.add_argument_group("output").add_argument
     add("-o", "--output", action="append", default=[], metavar="IMAGE",
-        help="may be given again: .png, .jpg are the figure; .exr is the linear radiance of its scene; - is standard "
+        help="may be given again: .png and .jpg have the figure, .exr the linear radiance of its scene; - is standard "
         "output")
-    add("--format", dest="output_format", choices=PICTURES, help="of an image to standard output")
+    add("--format", dest="output_format", choices=PICTURES, help="format of an image on standard output")
     add("--png-bits", type=int, choices=(8, 16), default=8)
-    add("--legend", metavar="FILE", help="what the colors say, as .svg, .pdf or .png")
+    add("--legend", metavar="FILE", help="legend of the colors, as .svg, .pdf or .png")
     add("--write-scene", metavar="SCENE", help="scene file for `pt render`, with NPY files beside it")
-    add("--turntable", type=at_least(2, int), metavar="N", help="N pictures once round the vertical axis, lamps and all")
+    add("--turntable", type=at_least(2, int), metavar="N", help="N pictures of a full turn about the vertical axis; lamps move "
+        "with the camera")
     add("--frames", type=typed(two("-", int), "two frames like 0-99"), metavar="A-B", help="a picture of each frame")
-    add("--trails", type=at_least(1, int), default=0, metavar="N", help="of --frames: where each particle was in the N "
-        "frames before; steps through walls of a periodic cell are left out")
+    add("--trails", type=at_least(1, int), default=0, metavar="N", help="with --frames, each particle's positions in the "
+        "N frames before; steps through walls of a periodic cell are left out")
     add("--progress", choices=("auto", "json", "none"), default="auto")
     add("-q", "--quiet", action="store_true", help="print errors only")
     groups: dict[str, Any] = {}

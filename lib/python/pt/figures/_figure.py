@@ -357,12 +357,12 @@ def _with_keywords(make: Callable[P, Options]) -> Callable[Concatenate[Any, P], 
         with Context(options.device) as context:
             return staged.draw(context)
 
-    figure.__doc__ = f"""Renders particles: camera, light, sizes and colors follow from the data where options do not say otherwise.
+    figure.__doc__ = f"""Renders particles. Camera, light, sizes and colors follow from the data unless options set them.
 
-    data             a file's name, an array of shape (n, 3), a dict or frame of columns, or what load() takes besides
+    data             name of a file, array of shape (n, 3), dict or frame of columns, or other data of load()
 {described()}
 
-    ValueError: data or options that do not fit, with their name, the value and the rule.
+    Raises ValueError for bad data or options, with name, value and rule.
     """
     first = inspect.Parameter("data", inspect.Parameter.POSITIONAL_ONLY, annotation=Any)
     keywords = inspect.signature(make)

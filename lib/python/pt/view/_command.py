@@ -20,8 +20,8 @@ from pt.figures._command import add_option, joined, typed
 from pt.figures._options import Options, two
 
 EPILOG = """\
-The page is served on 127.0.0.1 alone; anybody with its address may see and steer it. From another machine:
-ssh -L PORT:127.0.0.1:PORT HOST, with the port of the address. Ctrl-C ends it; only the page's save buttons write files.
+The server listens only on 127.0.0.1. Everybody who has its address can control it. From another machine use
+ssh -L PORT:127.0.0.1:PORT HOST with the port of the address. Ctrl-C ends it. Only the page's save buttons write files.
 """
 VECTOR_BITS = "LP_NATIVE_VECTOR_WIDTH"
 
