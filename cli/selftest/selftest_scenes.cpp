@@ -11,7 +11,7 @@
 namespace cli {
 namespace {
 
-// Probability that one check fails on a correct device. All checks together have about 1e-6.
+// Probability that one check fails on a correct device. The probability that any check fails is about 1e-6.
 constexpr double false_alarm = 1e-7;
 
 // Bernstein (Boucheron, Lugosi, Massart, Concentration Inequalities, 2013, section 2.8), solved for t: P(|error| > t)

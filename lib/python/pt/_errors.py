@@ -14,7 +14,7 @@ class BrokenRule:
     index: int | None  # only for arrays
     member: str  # "center"; "" if the rule concerns the argument itself
     component: int | None  # only for vectors
-    joined_with: str  # other factor of the value, such as "* height" for a rule about width * height; else ""
+    joined_with: str  # "* height" if the rule concerns the product of width and height; else ""
     value: str  # "nan"
     rule: str  # "must be finite"
 

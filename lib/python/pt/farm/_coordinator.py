@@ -111,8 +111,8 @@ class Coordinator:
         self._progress.samples_wanted = float((wanted * self._pixels).sum() / self._pixels.sum())
 
     def _seconds_to_ask(self) -> float:
-        """Seconds until `more` is called. A late call plans more tiles together, so it waits until a worker is almost idle.
-        Calls take at most half of the time."""
+        """Seconds until `more` is called. The call should be late, because more tiles can then be planned together, but
+        before a worker is idle. Calls take at most half of the time."""
         if self._waiting or not self._open or not self._has_only or self._progress.parts == self._asked_at:
             return float("inf")
         idle = min((member.busy_until for member in self._crew if member.can_take(SLOTS)), default=float("inf"))

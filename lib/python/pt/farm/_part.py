@@ -25,7 +25,7 @@ class Part:
         return (self.end - self.first) * len(self.tiles)
 
     def split(self, work: int, least_tiles: int) -> tuple[Part, list[Part]]:
-        """Returns a part of about this work, and the rest. Few tiles make small films, but a part keeps least_tiles."""
+        """Returns a part of about this work, and the rest. Prefers few tiles, because their films are small."""
         samples = self.end - self.first
         if self.work <= work:
             return self, []
