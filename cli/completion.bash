@@ -1,4 +1,4 @@
-# Completion of commands and options in bash (and zsh after bashcompinit), as the program's help lists them; else files.
+# Completes commands and options from the program's help, otherwise file names. For bash, and zsh after bashcompinit.
 _pt() {
   local word=${COMP_WORDS[COMP_CWORD]} command= words=
   ((COMP_CWORD > 1)) && command=${COMP_WORDS[1]}
