@@ -28,14 +28,14 @@ class Region:
     difference: tuple[float, float, float]  # mean of the first image minus mean of the second
     deviation: tuple[float, float, float]  # standard deviation of the difference
     probability: float  # upper bound: equal light shows such a difference in some region of this size
-    smallest_change: float  # smallest relative change of the region's light that would be found with 99%
+    smallest_change: float  # smallest relative change of the region's light that would be found with 99%; infinite if none
 
 
 @dataclass(frozen=True)
 class Comparison:
     light: Light
     probability: float  # upper bound: equal light shows such differences
-    smallest_change: float  # smallest relative change of all light that would be found with 99%
+    smallest_change: float  # smallest relative change of all light that would be found with 99%; infinite if none
     smallest_tile_change: float  # the same for one tile of 32 x 32 pixels; median over these tiles
     summary: str
     regions: tuple[Region, ...]  # the whole picture, then tiles whose sides are halved down to 16 pixels

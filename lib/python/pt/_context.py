@@ -37,7 +37,8 @@ class Context:
     scene_kernels         whether kernels may have a scene's numbers as constants; False suits scenes that change in
                           every frame
     submit_milliseconds   intended length of a submission, in [1, 1000]; calls can stop after each
-    shader_dir            GLSL files that replace the library's kernels (pt/shaders.h)
+    shader_dir            GLSL files that replace the library's kernels (pt/shaders.h); ShaderError if one does not
+                          compile
 
     Use `with` or close(). Otherwise the garbage collector closes the context.
 
@@ -113,7 +114,8 @@ class Context:
     def set_scene(self, scene: Scene, progress: Progress | None = None) -> Result:
         """Discards all samples. Ten million spheres take some seconds.
 
-        Returns Result.CANCELLED if progress returned True; then nothing has changed."""
+        Returns Result.CANCELLED if progress returned True; then nothing has changed. An exception after progress(1) may
+        come too late to stop the call."""
         guard = self._guard()
         scene_struct = SceneStruct(scene, guard, progress)
         return self._call("pt_set_scene", scene_struct.struct, guard=guard)
@@ -131,11 +133,13 @@ class Context:
     def reload_shaders(self) -> None:
         """Compiles the files of shader_dir again. Discards the samples if the kernels change.
 
-        Raises ShaderError if a file does not compile; then nothing has changed."""
+        Raises ShaderError if a file does not compile; then nothing has changed. Raises InvalidStateError without a
+        shader_dir."""
         self._call("pt_reload_shaders")
 
     def prepare(self) -> None:
-        """Builds the kernels of accumulate. Cannot be interrupted."""
+        """Builds the kernels of accumulate. Cannot be interrupted. Raises InvalidStateError if scene, camera or settings
+        are missing."""
         self._call("pt_prepare")
 
     def accumulate(self, sample_count: int, *, target_error: float = 0.0, sample_limit: int = 0,

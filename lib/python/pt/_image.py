@@ -75,7 +75,7 @@ class Image:
         return to_srgb8(self.radiance, automatic_exposure(self.radiance) if exposure is None else exposure)
 
     def save(self, path: Path, *, exposure: float | None = None) -> None:
-        """Writes the picture of to_srgb8 (.png) or the radiance (.npy) atomically."""
+        """Writes the picture of to_srgb8 (.png) or the radiance (.npy) atomically. Raises ValueError for another ending."""
         if format_of(path, ("png", "npy")) == "npy":
             write_atomically(path, lambda file: np.save(file, self.radiance, allow_pickle=False))
         else:

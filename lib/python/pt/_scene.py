@@ -106,7 +106,8 @@ class SphereArray:
 
     Native float32, float64, uint32 (indices) and uint8 (colors) are read in place if each row is contiguous and rows
     ascend at any stride: a[::2], a[:, :3], fields of structured arrays. The constructor copies other arrays; `copied`
-    has their names. Raises ValueError for unsuitable shapes, TypeError for unsuitable types.
+    has their names. Raises ValueError for unsuitable shapes, TypeError for values that are not numbers and for
+    integer colors other than uint8.
     """
 
     def __init__(self, center: npt.ArrayLike, radius: npt.ArrayLike, material: MaterialOrIndex | npt.ArrayLike, *,

@@ -312,7 +312,8 @@ class Figure(Image):
         return encode_png(self.picture(np.uint8 if bits == 8 else np.uint16, exposure))
 
     def save(self, path: Path, *, exposure: float | None = None, bits: int = 8) -> None:
-        """Writes the picture (.png, .jpg) or the linear radiance (.exr, .npy) atomically."""
+        """Writes the picture (.png, .jpg) or the linear radiance (.exr, .npy) atomically. Raises ValueError for another
+        ending."""
         format = format_of(path, (*PICTURES, "npy"))
         if format == "npy":
             super().save(path)
