@@ -130,12 +130,6 @@ std::string attribute_of(const DecodedImage &image, std::string_view name) {
     return found == image.attributes.end() ? "" : attribute_text(*found);
 }
 
-// The first estimators hit lamps only by chance.
-bool finds_lamps_by_chance(const DecodedImage &image) {
-    const std::uint32_t estimator = estimators.find(attribute_of(image, "pt.estimator")).value_or(PT_ESTIMATOR_BEST);
-    return estimator != PT_ESTIMATOR_BEST && estimator <= PT_ESTIMATOR_BSDF;
-}
-
 TestedImage tested(const DecodedImage &image, const std::vector<float> &radiance) {
     const std::vector<float> counts = image.layer(counts_channel);
     const auto [fewest, most] = std::ranges::minmax(counts);
@@ -148,7 +142,7 @@ TestedImage tested(const DecodedImage &image, const std::vector<float> &radiance
             static_cast<std::uint32_t>(fewest),
             static_cast<std::uint32_t>(most),
             samplers.find(attribute_of(image, "pt.sampler")).value_or(0),
-            finds_lamps_by_chance(image)};
+            estimators.find(attribute_of(image, "pt.estimator")).value_or(0)};
 }
 
 std::string size_text(const DecodedImage &image) {

@@ -21,10 +21,11 @@ class Rendering {
 public:
     Rendering(const KernelTask &task, const SceneFile &scene, const char *shader_dir) :
         context_(create_info(task, shader_dir)),
-        window_(whole_window(scene.render.width, scene.render.height)),
+        settings_(scene.render),
+        window_(whole_window(settings_.width, settings_.height)),
         radiance_(3 * window_.part.pixel_count()) {
         describe_scene(context_, scene, [](double) { return true; });
-        context_.require(pt_set_render(context_.get(), &scene.render));
+        context_.require(pt_set_render(context_.get(), &settings_));
     }
 
     void render_up_to(std::uint32_t samples) {
@@ -35,7 +36,9 @@ public:
         context_.read(0, window_.part.width, window_.part.height, PT_QUANTITY_RADIANCE, radiance_.data());
     }
 
-    TestedImage image() const { return {window_, radiance_, samples_, samples_}; }
+    TestedImage image() const {
+        return {window_, radiance_, samples_, samples_, settings_.sampler, settings_.estimator};
+    }
 
 private:
     static pt_create_info create_info(const KernelTask &task, const char *shader_dir) {
@@ -46,6 +49,7 @@ private:
     }
 
     Context context_;
+    pt_render settings_;
     ImageWindow window_;
     std::vector<float> radiance_;
     std::uint32_t samples_ = 0;

@@ -13,15 +13,13 @@
 namespace cli {
 namespace {
 
-constexpr double usual_rate = 1e-6;
-
 pt_compared_image compared_image(const TestedImage &image) {
     pt_compared_image compared{};
     compared.radiance = image.radiance.data();
     compared.min_samples = image.min_samples;
     compared.max_samples = image.max_samples;
     compared.sampler = image.sampler;
-    compared.may_miss_light = image.may_miss_light ? 1 : 0;
+    compared.estimator = image.estimator;
     return compared;
 }
 
@@ -36,7 +34,7 @@ std::vector<pt_compared_region> worst_regions(const LightVerdict &verdict) {
     constexpr std::size_t most = 5;
     std::vector<pt_compared_region> worst;
     for (const pt_compared_region &region : verdict.regions)
-        if (region.probability <= verdict.rate)
+        if (region.probability <= verdict.comparison.rate)
             worst.push_back(region);
     std::ranges::stable_sort(worst, {}, &pt_compared_region::probability);
     worst.resize(std::min(worst.size(), most));
@@ -87,17 +85,17 @@ LightVerdict test_light(const TestedImage &first, const TestedImage &second, con
     info.look = look;
     info.first = compared_image(first);
     info.second = compared_image(second);
-    info.rate = rule.rate.value_or(usual_rate);
+    info.rate = rule.rate.value_or(0.0);
     info.min_change = rule.min_change.value_or(0.0);
-    LightVerdict verdict{sized<pt_comparison>(), {}, first.window, info.rate};
+    LightVerdict verdict{sized<pt_comparison>(), {}, first.window};
     std::uint32_t count = 0;
-    const auto compare = [&](pt_compared_region *regions) {
-        if (pt_compare(&info, &verdict.comparison, regions, &count) < 0)
+    const auto compare = [&](pt_comparison *comparison, pt_compared_region *regions) {
+        if (pt_compare(&info, comparison, regions, &count) < 0)
             throw Failure(ExitCode::usage, "cannot test the light: " + rule_of(last_error(nullptr)));
     };
-    compare(nullptr);
+    compare(nullptr, nullptr);
     verdict.regions.resize(count);
-    compare(verdict.regions.data());
+    compare(&verdict.comparison, verdict.regions.data());
     return verdict;
 }
 
@@ -118,7 +116,7 @@ nlohmann::ordered_json light_json(const LightVerdict &verdict) {
         regions.push_back(region_json(verdict, region));
     return {{"light", names.at(comparison.light)},
             {"summary", comparison.summary},
-            {"rate", verdict.rate},
+            {"rate", comparison.rate},
             {"probability", comparison.probability},
             {"smallest_change", number_or_null(comparison.smallest_change)},
             {"smallest_tile_change", number_or_null(comparison.smallest_tile_change)},

@@ -18,8 +18,8 @@ struct TestedImage {
     std::span<const float> radiance; // three values a pixel
     std::uint32_t min_samples;       // fewest samples of a pixel
     std::uint32_t max_samples;
-    std::uint32_t sampler = 0;   // 0 if unknown
-    bool may_miss_light = false; // as in pt_compared_image
+    std::uint32_t sampler;   // PT_SAMPLER_*, 0 if unknown
+    std::uint32_t estimator; // PT_ESTIMATOR_*, 0 if unknown
 };
 
 struct LightRule {
@@ -31,7 +31,6 @@ struct LightVerdict {
     pt_comparison comparison;
     std::vector<pt_compared_region> regions;
     ImageWindow window;
-    double rate;
 
     bool is_different() const { return comparison.light == PT_LIGHT_DIFFERENT; }
     bool is_decided() const { return comparison.light != PT_LIGHT_UNDECIDED; }

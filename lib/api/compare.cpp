@@ -56,9 +56,15 @@ pt_compare_info validated_compare(const pt_compare_info *user) {
 pt_result pt_compare(const pt_compare_info *info, pt_comparison *comparison, pt_compared_region *regions,
                      uint32_t *count) {
     return pt::guard(pt::thread_last_error, [&] {
-        pt::struct_size_of(comparison, "comparison"); // refuses a wrong struct before the work
         pt::require_not_null(count, "count");
-        pt::Comparison result = pt::compare_light(pt::validated_compare(info));
+        if (comparison || regions)
+            pt::struct_size_of(comparison, "comparison"); // before the work
+        const pt_compare_info valid = pt::validated_compare(info);
+        if (!comparison && !regions) {
+            *count = pt::region_count_of(valid);
+            return;
+        }
+        pt::Comparison result = pt::compare_light(valid);
         const auto available = static_cast<std::uint32_t>(result.regions.size());
         *count = regions ? std::min(*count, available) : available;
         if (regions)

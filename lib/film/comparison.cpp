@@ -1,5 +1,7 @@
 #include "lib/film/comparison.h"
 
+#include "lib/film/error_estimate.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,20 +21,16 @@ constexpr double not_found = std::numeric_limits<double>::infinity();
 constexpr std::uint32_t least_side = 16;    // pixels
 constexpr std::uint32_t reported_side = 32; // of smallest_tile_change
 
-// Differences up to this fraction of the light count as rounding errors.
+// Differences up to this fraction of the light count as rounding errors. A lobe 2^x with x >= -100 errs by up to
+// 100 ln 2 * 18 u in x and 203 u in the power (lib/kernel/accuracy.cpp), 8.7e-5.
 constexpr double rounding_share = 1e-4;
 
 // P(|sum of e_i d_i| >= z sqrt(sum of d_i^2)) <= 2 * 3.178 P(normal >= z) for random signs e_i (Bentkus and
 // Dzindzalieta 2015).
 constexpr double sign_constant = 3.178;
 
-// The darker image must have light in at least this many pixels. With k rare events the skewness is 1 / sqrt(k). The
-// bound for the probability is then at least about exp(-k / 6), 10^-9 for k = 125.
-constexpr double least_lit = 125.0;
-
-// A change is found with 99% probability if it exceeds the threshold by this many deviations. Known deviations would
-// need 2.33. Estimated deviations need more.
-constexpr double margin_99 = 3.0;
+// P(normal < 2.326) = 99%.
+constexpr double quantile_99 = 2.326;
 
 struct ChannelSums {
     double light = 0.0; // second image
@@ -60,6 +58,11 @@ struct ChannelSums {
     }
 };
 
+bool may_miss_lamps(const pt_compared_image &image) {
+    constexpr std::uint32_t some_length = 2;
+    return finds_lamps_by_chance(image.estimator, some_length);
+}
+
 // Whether a lack of light in the first or second image is evidence.
 struct Knowledge {
     bool of_first;
@@ -67,8 +70,8 @@ struct Knowledge {
 };
 
 Knowledge knowledge_of(const pt_compare_info &info) {
-    const bool first_misses = info.first.may_miss_light != 0;
-    const bool second_misses = info.second.may_miss_light != 0;
+    const bool first_misses = may_miss_lamps(info.first);
+    const bool second_misses = may_miss_lamps(info.second);
     return {!first_misses || second_misses, !second_misses || first_misses};
 }
 
@@ -88,12 +91,12 @@ struct Level {
     std::vector<Region> regions;
 };
 
-std::uint32_t quotient_up(std::uint32_t a, std::uint32_t b) {
+constexpr std::uint64_t quotient_up(std::uint64_t a, std::uint64_t b) {
     return a / b + (a % b != 0 ? 1 : 0);
 }
 
 Level level_of(const pt_compare_info &info, std::uint32_t side) {
-    Level level{side, quotient_up(info.width, side), {}};
+    Level level{side, static_cast<std::uint32_t>(quotient_up(info.width, side)), {}};
     for (std::uint32_t y = 0; y < info.height; y += std::min(side, info.height - y))
         for (std::uint32_t x = 0; x < info.width; x += std::min(side, info.width - x))
             level.regions.push_back({x, y, std::min(side, info.width - x), std::min(side, info.height - y)});
@@ -191,25 +194,30 @@ public:
     Evidence(const ChannelSums &sums, const Events &events, const Knowledge &knowledge, double pixel_count) :
         sums_(sums),
         knowledge_(knowledge),
+        pixel_count_(pixel_count),
         event_(std::max(events.absolute, events.relative * std::max(sums.light, 0.0) / pixel_count)),
         deviation_(std::sqrt(sums.squares)) {}
 
     double probability() const {
         const double sign = sums_.difference < 0.0 ? -1.0 : 1.0;
         const double excess = std::abs(sums_.difference) - rounding_share * std::abs(sums_.light);
-        return has_light(sign) && excess > 0.0 ? probability_of(excess, deviation_, skewness(sign)) : 1.0;
+        const double met = sign < 0.0 ? met_by_first() : met_by_second();
+        return excess > 0.0 ? probability_of(excess, deviation_, event_, skewness(sign), met) : 1.0;
     }
 
     // Returns the smallest change, as a fraction of the light, that is found with 99% probability at this rate. A
-    // change a adds a^2 times the squared light to the squared differences.
+    // change a multiplies the first image's noise and events by up to 1 + a, and adds a^2 times the squared light to
+    // the squared differences.
     double smallest_change(double rate) const {
         const double worst_skewness = std::max(skewness(-1.0), skewness(1.0));
+        const double met = std::min(met_by_first(), met_by_second());
         const auto is_found = [&](double change) {
-            const double deviation = std::sqrt(sums_.squares + change * change * sums_.light_squares);
-            const double excess = (change - rounding_share) * sums_.light - margin_99 * deviation;
-            return excess > 0.0 && probability_of(excess, deviation, worst_skewness) <= rate;
+            const double growth = 1.0 + change;
+            const double deviation = std::sqrt(growth * growth * sums_.squares + change * change * sums_.light_squares);
+            const double excess = (change - rounding_share) * sums_.light - quantile_99 * deviation;
+            return excess > 0.0 && probability_of(excess, deviation, growth * event_, worst_skewness, met) <= rate;
         };
-        if (!has_light(-1.0) || !has_light(1.0) || !is_found(1.0))
+        if (!is_found(1.0))
             return not_found;
         double low = 0.0;
         double high = 1.0;
@@ -222,22 +230,25 @@ public:
     }
 
 private:
-    // A negative sign means that the first image is darker.
-    bool has_light(double sign) const {
-        return sign < 0.0 ? knowledge_.of_first && sums_.first_lit >= least_lit
-                          : knowledge_.of_second && sums_.second_lit >= least_lit;
-    }
+    // A lower bound for the events in an image, by the pixels without light. 0 if a lack of light is no evidence.
+    double met_by_first() const { return knowledge_.of_first ? events_in(sums_.first_lit) : 0.0; }
+    double met_by_second() const { return knowledge_.of_second ? events_in(sums_.second_lit) : 0.0; }
+    double events_in(double lit) const { return pixel_count_ * -std::log1p(-lit / pixel_count_); }
 
     double skewness(double sign) const {
         return deviation_ > 0.0 ? std::max(0.0, -sign * sums_.cubes / std::pow(deviation_, 3.0)) : 0.0;
     }
 
-    double probability_of(double excess, double deviation, double skewness) const {
-        return Difference{excess / deviation, event_ / deviation, skewness}.probability();
+    // met: events in the darker image. The skewness of k events is 1 / sqrt(k), with which no difference has a lower
+    // bound than e^(-k / 2 + k / 3).
+    static double probability_of(double excess, double deviation, double event, double skewness, double met) {
+        const Difference difference{excess / deviation, event / deviation, skewness};
+        return std::max(difference.probability(), std::exp(-met / 6.0));
     }
 
     const ChannelSums &sums_;
     Knowledge knowledge_;
+    double pixel_count_;
     double event_;
     double deviation_; // of the sum
 };
@@ -276,10 +287,10 @@ double median_of(std::vector<double> values) {
     return *middle;
 }
 
-std::uint32_t light_of(const pt_compare_info &info, const pt_comparison &verdict, double rate) {
+std::uint32_t light_of(const pt_compare_info &info, const pt_comparison &verdict) {
     if (are_equal_bits(info))
         return PT_LIGHT_EQUAL_BITS;
-    if (verdict.probability <= rate)
+    if (verdict.probability <= verdict.rate)
         return PT_LIGHT_DIFFERENT;
     return verdict.smallest_change <= info.min_change ? PT_LIGHT_SAME : PT_LIGHT_UNDECIDED;
 }
@@ -294,8 +305,8 @@ Comparison compare_light(const pt_compare_info &info) {
     const ChannelEvents events = largest_events(info);
     const std::vector<Level> levels = levels_of(info);
     Comparison comparison;
-    comparison.rate = rate;
     pt_comparison &verdict = comparison.verdict;
+    verdict.rate = rate;
     verdict.probability = 1.0;
     verdict.smallest_change = not_found;
     verdict.smallest_tile_change = not_found;
@@ -312,10 +323,20 @@ Comparison compare_light(const pt_compare_info &info) {
         if (level->side == reported_side || levels.size() == 1)
             verdict.smallest_tile_change = median_of(std::move(changes));
     }
-    verdict.light = light_of(info, verdict, rate);
+    verdict.light = light_of(info, verdict);
     const std::string summary = summary_of(comparison, info.min_change);
     std::copy_n(summary.begin(), std::min(summary.size(), sizeof verdict.summary - 1), verdict.summary);
     return comparison;
+}
+
+std::uint32_t region_count_of(const pt_compare_info &info) {
+    std::uint32_t count = 0;
+    for (std::uint64_t side = least_side;; side *= 2) {
+        const auto regions = quotient_up(info.width, side) * quotient_up(info.height, side);
+        count += static_cast<std::uint32_t>(regions);
+        if (regions == 1)
+            return count;
+    }
 }
 
 } // namespace pt

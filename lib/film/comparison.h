@@ -3,6 +3,7 @@
 
 #include <pt/compare.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -10,12 +11,13 @@ namespace pt {
 
 struct Comparison {
     pt_comparison verdict{};
-    double rate = 0.0;                       // for this look
     std::vector<pt_compared_region> regions; // in pt_compare's order
 };
 
 // `info` must be valid and must not rely on defaults.
 Comparison compare_light(const pt_compare_info &info);
+
+std::uint32_t region_count_of(const pt_compare_info &info);
 
 std::string summary_of(const Comparison &comparison, double min_change);
 

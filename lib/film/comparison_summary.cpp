@@ -44,7 +44,7 @@ std::string change_of(const pt_compared_region &region, bool is_whole) {
 std::string clearest_change_of(const Comparison &comparison) {
     const auto &regions = comparison.regions;
     const auto clearest = std::ranges::min_element(regions, {}, &pt_compared_region::probability);
-    const bool is_whole = regions.front().probability <= comparison.rate;
+    const bool is_whole = regions.front().probability <= comparison.verdict.rate;
     return change_of(is_whole ? regions.front() : *clearest, is_whole);
 }
 

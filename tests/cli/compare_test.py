@@ -171,6 +171,7 @@ class LightOnDevice(CommandLineTest):
         self.expect(8, *scene, "--json", "j.json")
         self.assertEqual(json.loads(self.read("j.json"))["light"], "different")
         self.expect(9, *scene, "--set", "render.spp=2")
+        self.expect(2, *scene, "--set", "render.sampler=halton", error="sampler = 2: must not be")
 
 
 if __name__ == "__main__":

@@ -102,14 +102,14 @@ TEST(Comparison, TheProbabilityIsThatOfSigns) {
     const Pixels ones(3 * pixel_count, 1.0F);
     Pixels first;
     for (std::size_t i = 0; i < pixel_count; ++i)
-        first.insert(first.end(), 3, i % 5 == 0 ? 0.9F : 1.1F);
+        first.insert(first.end(), 3, i % 8 < 3 ? 0.9F : 1.1F);
     pt_compare_info info = info_of(first, ones);
     std::uint32_t count = 1;
     pt_compared_region whole{};
     pt_comparison comparison{};
     comparison.struct_size = sizeof comparison;
     ASSERT_EQ(pt_compare(&info, &comparison, &whole, &count), PT_OK);
-    const double minus = std::ceil(static_cast<double>(pixel_count) / 5.0);
+    const double minus = 3.0 / 8.0 * static_cast<double>(pixel_count);
     const double plus = static_cast<double>(pixel_count) - minus;
     const double up = static_cast<double>(1.1F) - 1.0;
     const double down = static_cast<double>(0.9F) - 1.0;
@@ -212,11 +212,11 @@ TEST(Comparison, LackOfLightThatMayBeMissedSaysNothing) {
     const Pixels darker = drawn(random, normal(0.02));
     const Pixels brighter = times(drawn(random, normal(0.02)), 1.1);
     pt_compare_info info = info_of(darker, brighter);
-    info.first.may_miss_light = 1;
+    info.first.estimator = PT_ESTIMATOR_BSDF;
     EXPECT_EQ(compared(info).light, PT_LIGHT_UNDECIDED);
-    info.second.may_miss_light = 1;
+    info.second.estimator = PT_ESTIMATOR_UNIFORM;
     EXPECT_EQ(compared(info).light, PT_LIGHT_DIFFERENT);
-    info.first.may_miss_light = 0;
+    info.first.estimator = PT_ESTIMATOR_LIGHT;
     EXPECT_EQ(compared(info).light, PT_LIGHT_DIFFERENT);
 }
 
@@ -244,9 +244,40 @@ TEST(Comparison, LooksShareTheRate) {
     ASSERT_LT(info.rate, 0.5);
     for (const std::uint32_t look : {0U, 1U, 2U, 5U}) {
         info.look = look;
-        const bool found = look * (look + 1) <= 3;
-        EXPECT_EQ(compared(info).light == PT_LIGHT_DIFFERENT, found) << look;
+        const pt_comparison comparison = compared(info);
+        const double shares = std::max(look * (look + 1), 1U);
+        EXPECT_EQ(comparison.light == PT_LIGHT_DIFFERENT, shares <= 3) << look;
+        EXPECT_DOUBLE_EQ(comparison.rate, info.rate / shares);
     }
+    info.rate = 0.0;
+    info.look = 0;
+    EXPECT_EQ(compared(info).rate, 1e-6);
+}
+
+// The bound for k events is e^(-k / 6).
+TEST(Comparison, FewPixelsWithLightSayLittle) {
+    const Pixels second(3 * pixel_count, 1.0F);
+    for (const std::size_t lit : {std::size_t{10}, std::size_t{100}}) {
+        Pixels first(second.size(), 0.0F);
+        std::fill_n(first.begin(), 3 * lit, 1.0F);
+        EXPECT_GE(compared(info_of(first, second)).probability, std::exp(-static_cast<double>(lit) / 6.0)) << lit;
+    }
+}
+
+// Counting compares nothing.
+TEST(Comparison, RegionsAreCounted) {
+    const Pixels ones(3 * pixel_count, 1.0F);
+    const pt_compare_info info = info_of(ones, ones);
+    std::uint32_t counted = 0;
+    ASSERT_EQ(pt_compare(&info, nullptr, nullptr, &counted), PT_OK);
+    EXPECT_EQ(counted, 6U + 2U + 1U); // of 16, 32 and 64 pixels
+    std::uint32_t compared_count = 0;
+    pt_comparison comparison{};
+    comparison.struct_size = sizeof comparison;
+    ASSERT_EQ(pt_compare(&info, &comparison, nullptr, &compared_count), PT_OK);
+    EXPECT_EQ(compared_count, counted);
+    pt_compared_region region{};
+    EXPECT_EQ(pt_compare(&info, nullptr, &region, &counted), PT_ERROR_INVALID_ARGUMENT);
 }
 
 void expect_refusal(const pt_compare_info &info, const std::string &message) {

@@ -47,12 +47,23 @@ class Compare(unittest.TestCase):
         expected = pt.compare(first, second)
         self.assertEqual(pt.compare(first.image(), second.image()), expected)
         self.assertEqual(pt.compare(first.readback(), second.readback()).light, expected.light)
+        image = first.image()
+        image.raw, image.radiance = image.radiance, image.radiance * 2  # as if denoised
+        self.assertEqual(pt.compare(image, second), expected)
+
+    def test_an_estimator_that_may_have_missed_lamps(self):
+        darker = self.film(3, estimator=pt.Estimator.COSINE).image()
+        darker.radiance = self.films[0].readback() / 2
+        self.assertNotEqual(pt.compare(darker, self.films[1]).light, pt.Light.DIFFERENT)
+        darker.estimator = pt.Estimator.BEST
+        self.assertEqual(pt.compare(darker, self.films[1]).light, pt.Light.DIFFERENT)
 
     def test_what_cannot_be_compared(self):
         first, second = self.films
         halton = self.film(3, sampler=pt.Sampler.HALTON)
-        with self.assertRaisesRegex(pt.InvalidArgumentError, "first.sampler = 2: must not be"):
-            pt.compare(halton, second)
+        for each in halton, halton.image(), self.context.image():
+            with self.assertRaisesRegex(pt.InvalidArgumentError, "first.sampler = 2: must not be"):
+                pt.compare(each, second)
         with self.assertRaisesRegex(ValueError, r"shapes = \[\(64, 64, 3\), \(2, 2, 3\)\]: must both be"):
             pt.compare(first, np.zeros((2, 2, 3)))
         with self.assertRaisesRegex(pt.InvalidArgumentError, "compare.rate = 2: must be in"):

@@ -28,9 +28,9 @@ typedef struct pt_compared_image {
     /** Most samples of a pixel. They must equal min_samples, because PT_SAMPLING_ADAPTIVE shifts means. */
     uint32_t max_samples;
     uint32_t sampler; /**< PT_SAMPLER_*, 0 if unknown; not PT_SAMPLER_HALTON, whose errors are not random */
-    /** Not 0: samples may have missed lamps (PT_UNCERTAIN_UNMET). If only this image has the flag, the test ignores
-     * that it is darker. */
-    uint32_t may_miss_light;
+    /** PT_ESTIMATOR_*, 0 if unknown. If only this image's estimator finds lamps by chance, the test ignores that it is
+     * darker. */
+    uint32_t estimator;
 } pt_compared_image;
 
 /** Input of pt_compare. */
@@ -72,12 +72,14 @@ typedef struct pt_comparison {
      * none. */
     double smallest_change;
     double smallest_tile_change; /**< median over tiles of 32 x 32 pixels of their smallest_change */
+    double rate;                 /**< this look's rate; light differs where the probability is at most this */
     char summary[160];           /**< the result as a sentence; ASCII, zero-terminated */
 } pt_comparison;
 
 /** Compares the light of two images, and lists the compared regions.
  *
- * Regions are ordered by size: first the whole picture, last the tiles of 16 x 16 pixels, each size row by row.
+ * Regions are ordered by size: first the whole picture, last the tiles of 16 x 16 pixels, each size row by row. If
+ * comparison and regions are NULL, *count receives the number of regions, and nothing is compared.
  *
  * Any thread. */
 PT_API pt_result pt_compare(const pt_compare_info *info, pt_comparison *comparison, pt_compared_region *regions,

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from pt import _structs as structs
-from pt._enums import Light, Quantity, Uncertain
+from pt._enums import Light, Quantity
 from pt._film import Film
 from pt._image import Image
 from pt._library import checked, library
@@ -37,6 +37,7 @@ class Comparison:
     probability: float  # upper bound: equal light shows such differences
     smallest_change: float  # smallest relative change of all light that would be found with 99%; infinite if none
     smallest_tile_change: float  # the same for one tile of 32 x 32 pixels; median over these tiles
+    rate: float  # for this look: light differs if a probability is at most this
     summary: str
     regions: tuple[Region, ...]  # the whole picture, then tiles whose sides are halved down to 16 pixels
 
@@ -44,13 +45,14 @@ class Comparison:
         return self.summary
 
 
-def compare(first: Film | Image | npt.ArrayLike, second: Film | Image | npt.ArrayLike, *, rate: float = 1e-6,
+def compare(first: Film | Image | npt.ArrayLike, second: Film | Image | npt.ArrayLike, *, rate: float = 0.0,
             min_change: float = 1.0, look: int = 0) -> Comparison:
     """Tests whether two images show the same light (shaders/README.md, section 11).
 
-    first, second   films, images or radiance of shape (height, width, 3), equally large. Changes are relative to the
-                    second. Images with the same seed and sampler reveal smaller changes
-    rate            probability of calling equal light different
+    first, second   films, images (of denoised ones the raw mean) or radiance of shape (height, width, 3), equally
+                    large. Changes are relative to the second. Images with the same seed and sampler reveal smaller
+                    changes
+    rate            probability of calling equal light different; 0: 10^-6
     min_change      Light.UNDECIDED if a relative change of all light by this much may be missed
     look            1, 2, ... for repeated tests of growing images; `rate` is then for all together
 
@@ -63,15 +65,15 @@ def compare(first: Film | Image | npt.ArrayLike, second: Film | Image | npt.Arra
     info = structs.pt_compare_info(width=shape[1], height=shape[0], look=look, rate=rate, min_change=min_change,
                                    first=_compared(images[0], first), second=_compared(images[1], second))
     found, count, loaded = structs.pt_comparison(), ctypes.c_uint32(), library()
-    checked(loaded, loaded.pt_compare(info, found, None, count))
+    checked(loaded, loaded.pt_compare(info, None, None, count))
     regions = (structs.pt_compared_region * count.value)()
     checked(loaded, loaded.pt_compare(info, found, regions, count))
     return Comparison(Light(found.light), found.probability, found.smallest_change, found.smallest_tile_change,
-                      found.summary.decode(), tuple(map(_region, regions)))
+                      found.rate, found.summary.decode(), tuple(map(_region, regions)))
 
 
 def assert_same_light(first: Film | Image | npt.ArrayLike, second: Film | Image | npt.ArrayLike, *,
-                      min_change: float = 0.01, rate: float = 1e-6) -> None:
+                      min_change: float = 0.01, rate: float = 0.0) -> None:
     """Raises AssertionError with the most different regions if the light differs, or if a relative change of all light by
     min_change may have been missed. The arguments are as in compare()."""
     comparison = compare(first, second, rate=rate, min_change=min_change)
@@ -79,25 +81,25 @@ def assert_same_light(first: Film | Image | npt.ArrayLike, second: Film | Image 
         return
     worst = sorted(comparison.regions, key=lambda region: region.probability)[:WORST]
     lines = [f"  {each.width}x{each.height} pixels at {each.x},{each.y}: difference {_numbers(each.difference)} +- "
-             f"{_numbers(each.deviation)} of {_numbers(each.light)}" for each in worst if each.probability <= rate]
+             f"{_numbers(each.deviation)} of {_numbers(each.light)}" for each in worst if each.probability <= comparison.rate]
     raise AssertionError("\n".join([str(comparison), *lines]))
 
 
 def _radiance(image: Film | Image | npt.ArrayLike) -> npt.NDArray[np.float32]:
     if isinstance(image, Film):
         image = image.readback(Quantity.RADIANCE)
+    elif isinstance(image, Image) and image.raw is not None:
+        image = image.raw
     return np.ascontiguousarray(image, np.float32)
 
 
 def _compared(radiance: npt.NDArray[np.float32], source: object) -> structs.pt_compared_image:
     struct = structs.pt_compared_image(radiance=radiance.ctypes.data_as(ctypes.POINTER(ctypes.c_float)))
     if isinstance(source, Film):
-        struct.sampler = source.info.sampler
-    if isinstance(source, (Film, Image)):
-        stats = source.stats() if isinstance(source, Film) else source.stats
-        error = source.error_estimate() if isinstance(source, Film) else source.error_estimate
-        struct.may_miss_light = bool(error.uncertain & Uncertain.UNMET)
-        struct.min_samples, struct.max_samples = stats.sample_count, stats.max_sample_count
+        source = source.image()
+    if isinstance(source, Image):
+        struct.sampler, struct.estimator = source.sampler, source.estimator
+        struct.min_samples, struct.max_samples = source.stats.sample_count, source.stats.max_sample_count
     return struct
 
 

@@ -60,7 +60,7 @@ class Context:
                  shader_dir: Path | None = None) -> None:
         self._library = library()
         self._in_call = False
-        self._shape: tuple[int, int] | None = None
+        self._settings: RenderSettings | None = None
         self._log = log
         # The log may refer to the context. A weak reference avoids a cycle.
         this = weakref.ref(self)
@@ -128,7 +128,7 @@ class Context:
         """Discards all samples. Takes 112 bytes a pixel of device memory. After UnsupportedError or
         OutOfDeviceMemoryError, render fewer rows at a time."""
         self._call("pt_set_render", settings._struct())
-        self._shape = settings.shape()
+        self._settings = settings
 
     def reload_shaders(self) -> None:
         """Compiles the files of shader_dir again. Discards the samples if the kernels change.
@@ -185,10 +185,9 @@ class Context:
         rectangle   x, y, width, height in pixels, from the top left of the rendered part; None for all
         format      pixel format of a new array
         """
-        if self._shape is None:
-            raise InvalidStateError("there is no image: set_render was not called")
-        pixels = new_pixels(self._shape, rectangle, format) if out is None else out
-        self._call("pt_readback", image_struct(pixels, quantity, self._shape, rectangle))
+        shape = self._rendered().shape()
+        pixels = new_pixels(shape, rectangle, format) if out is None else out
+        self._call("pt_readback", image_struct(pixels, quantity, shape, rectangle))
         return pixels
 
     def stats(self) -> Stats:
@@ -219,8 +218,10 @@ class Context:
         self._call("pt_add_film", data, len(data))
 
     def image(self) -> Image:
+        settings = self._rendered()
         return Image(self.readback(Quantity.RADIANCE), self.readback(Quantity.STANDARD_ERROR),
-                     self.readback(Quantity.SAMPLE_COUNT), self.error_estimate(), self.stats())
+                     self.readback(Quantity.SAMPLE_COUNT), self.error_estimate(), self.stats(),
+                     sampler=settings.sampler, estimator=settings.estimator)
 
     def render(self, scene: Scene, camera: Camera, settings: RenderSettings, samples: int, *,
                target_error: float = 0.0, progress: Progress | None = None, denoise: bool = False) -> Image:
@@ -241,6 +242,11 @@ class Context:
         if (displaced := self.warning()) is not None:
             warnings.warn(str(displaced), stacklevel=2)
         return image
+
+    def _rendered(self) -> RenderSettings:
+        if self._settings is None:
+            raise InvalidStateError("there is no image: set_render was not called")
+        return self._settings
 
     def _guard(self) -> CallbackGuard:
         guard = CallbackGuard()

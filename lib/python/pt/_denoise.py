@@ -98,16 +98,17 @@ def render_denoised(context: Context, settings: RenderSettings, samples: int, ta
         if len(parts) < len(halves):
             break
         guides = guides or (context.readback(Quantity.ALBEDO), context.readback(Quantity.NORMAL))
-        image, done = _joined(parts, guides), count
+        image, done = _joined(parts, guides, settings), count
     if image is None:
         raise InvalidStateError("the samples ended before there were two images to denoise")
     return image
 
 
-def _joined(parts: list[tuple[Pixels, Stats]], guides: tuple[Pixels, ...]) -> Image:
+def _joined(parts: list[tuple[Pixels, Stats]], guides: tuple[Pixels, ...], settings: RenderSettings) -> Image:
     (first, of_first), (second, of_second) = parts
     radiance, error = denoise(first, second, *guides)
     summed = ("sample_count", "max_sample_count", "mean_sample_count", "rejected_samples")
     stats = replace(of_second, **{name: getattr(of_first, name) + getattr(of_second, name) for name in summed})
     counts = np.full((*first.shape[:2], 1), stats.sample_count)
-    return Image(radiance, np.abs(first - second) / 2, counts, error, stats, raw=(first + second) / 2)
+    return Image(radiance, np.abs(first - second) / 2, counts, error, stats, raw=(first + second) / 2,
+                 sampler=settings.sampler, estimator=settings.estimator)

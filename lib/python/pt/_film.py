@@ -182,8 +182,10 @@ class Film:
 
     def image(self) -> Image:
         with self._lock:
+            info = self.info
             return Image(self.readback(Quantity.RADIANCE), self.readback(Quantity.STANDARD_ERROR),
-                         self.readback(Quantity.SAMPLE_COUNT), self.error_estimate(), self.stats())
+                         self.readback(Quantity.SAMPLE_COUNT), self.error_estimate(), self.stats(),
+                         sampler=info.sampler, estimator=info.estimator)
 
     def plan(self, target_error: float, most: int) -> tuple[Result, npt.NDArray[np.uint32]]:
         """Plans the next samples towards a target error, as Context.accumulate does. One machine can plan while others

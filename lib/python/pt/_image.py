@@ -6,6 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from pt._display import automatic_exposure, encode_png, to_srgb8
+from pt._enums import Estimator, Sampler
 from pt._files import Path, format_of, write_atomically
 from pt._stats import ErrorEstimate, Stats
 
@@ -20,11 +21,13 @@ class Image:
     stats            counts and costs
     exposure         stops for _repr_png_ and save; None: automatic
     raw              for a denoised image the mean of the samples, to which standard_error belongs; else None
+    sampler, estimator   of the settings; BEST also if unknown
     """
 
     def __init__(self, radiance: npt.NDArray[np.float32], standard_error: npt.NDArray[np.float32],
                  sample_count: npt.NDArray[Any], error_estimate: ErrorEstimate, stats: Stats,
-                 exposure: float | None = None, raw: npt.NDArray[np.float32] | None = None) -> None:
+                 exposure: float | None = None, raw: npt.NDArray[np.float32] | None = None,
+                 sampler: Sampler = Sampler.BEST, estimator: Estimator = Estimator.BEST) -> None:
         self.radiance = radiance
         self.raw = raw
         self.standard_error = standard_error
@@ -32,6 +35,8 @@ class Image:
         self.error_estimate = error_estimate
         self.stats = stats
         self.exposure = exposure
+        self.sampler = sampler
+        self.estimator = estimator
 
     @property
     def shape(self) -> tuple[int, ...]:

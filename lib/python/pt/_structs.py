@@ -89,7 +89,7 @@ class pt_function_accuracy(ctypes.Structure):
 
 class pt_compared_image(ctypes.Structure):
     _fields_ = [("radiance", POINTER(c_float)), ("min_samples", c_uint32), ("max_samples", c_uint32),
-                ("sampler", c_uint32), ("may_miss_light", c_uint32)]
+                ("sampler", c_uint32), ("estimator", c_uint32)]
 
 
 class pt_compare_info(Sized):
@@ -106,7 +106,8 @@ class pt_compared_region(ctypes.Structure):
 
 class pt_comparison(Sized):
     _fields_ = [("struct_size", c_uint32), ("light", c_uint32), ("probability", c_double),
-                ("smallest_change", c_double), ("smallest_tile_change", c_double), ("summary", c_char * 160)]
+                ("smallest_change", c_double), ("smallest_tile_change", c_double), ("rate", c_double),
+                ("summary", c_char * 160)]
 
 
 class pt_denoise_info(Sized):
