@@ -29,6 +29,7 @@ os.environ["PT_PROGRAM"] = PROGRAM
 
 import aiohttp  # noqa: E402
 from pt.view import View, _server  # noqa: E402
+from pt.view._built_in import verdict_of  # noqa: E402
 from pt.view._frame import faults_of  # noqa: E402
 
 
@@ -296,6 +297,38 @@ class Edits(unittest.TestCase):
             with closing(View(scene, samples=16, shader_dir=folder)) as view, Page(view) as page:
                 self.edit_kernel(page, folder)
                 self.edit_scene(page, scene)
+
+    def test_edited_kernels_are_compared_with_the_built_in_one(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name, "kernels")
+            shutil.copytree(SHADERS, folder)
+            text = (folder / "phong.glsl").read_text()
+            changed = text.replace("vec3 f = material.diffuse;", "vec3 f = 0.8 * material.diffuse;")
+            self.assertNotEqual(changed, text)
+            scene = pathlib.Path(name, "s.json")
+            scene.write_text(text_of(SCENE_FILE))
+            with closing(View(scene, samples=256, shader_dir=folder)) as view, Page(view) as page:
+                self.assertEqual(page.frame(lambda state: state["samples"] == 256)["verdict"], "")
+                page.send({"save": "phong.glsl", "text": changed})
+                verdict = page.frame(lambda state: state["verdict"].startswith("different"))["verdict"]
+                self.assertRegex(verdict, r"^different light: -\d+% \+- [\d.]+% of .* in [RGB]$")
+                page.send({"save": "phong.glsl", "text": text})
+                page.frame(lambda state: state["verdict"] == "same bits as the built-in kernel")
+                page.send({"camera": {**page.state["first_camera"], "vertical_fov": 50}, "moving": True})
+                page.frame(lambda state: not state["verdict"] and not state["moving"])
+                page.frame(lambda state: state["verdict"] == "same bits as the built-in kernel")
+                page.send({"sampler": "halton"})
+                self.assertIn("must not be PT_SAMPLER_HALTON", page.frame(lambda state: state["verdict"])["verdict"])
+
+    def test_verdicts(self):
+        for light, smallest, words in (
+                (pt.Light.EQUAL_BITS, 0.004, "same bits as the built-in kernel"),
+                (pt.Light.SAME, 0.00512, "same light as the built-in kernel to 0.51%"),
+                (pt.Light.DIFFERENT, 0.004, "different light: -3.1% +- 0.4% of the picture in G"),
+                (pt.Light.UNDECIDED, 0.031, "not enough samples yet: a change of 3.1% could hide"),
+                (pt.Light.UNDECIDED, np.inf, "not enough samples yet: any change could hide")):
+            self.assertEqual(verdict_of(pt.Comparison(light, 1, smallest, smallest, 1e-6,
+                                                      "different light: -3.1% +- 0.4% of the picture in G", ())), words)
 
     def edit_kernel(self, page, folder):
         files = page.ask({"list": True})["files"]

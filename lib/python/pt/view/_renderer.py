@@ -14,6 +14,7 @@ from pt._enums import Quantity, Result
 from pt._errors import DeviceLostError, Error, InvalidSceneError
 from pt._pixels import Rectangle
 from pt._stats import ErrorEstimate
+from pt.view._built_in import SHARE, BuiltIn
 from pt.view._frame import LAYERS, OF_SAMPLES, Frame, facts_of, faults_of, name_of
 from pt.view._source import Shown, Source
 
@@ -31,6 +32,8 @@ class Renderer:
                  device: str | None = None, most: int = 65536, size: tuple[int, int] | None = None) -> None:
         self._source, self._published, self._device, self._most = source, published, device, most
         self._shader_dir = shader_dir
+        self._built_in: BuiltIn | None = None  # once a kernel was edited
+        self._begins = True  # a test of the kernel
         self._context: Context | None = None
         self._faults: dict[str, str] = {}  # messages by cause
         self._history: list[list[float]] = []
@@ -91,13 +94,18 @@ class Renderer:
                 self._faults["rendering"] = (self._source.explained(error) if isinstance(error, InvalidSceneError)
                                              else str(error))
                 self._publish()
-        if self._context:
-            self._context.close()
+        for each in (self._context, self._built_in):
+            if each:
+                each.close()
 
     def _runs(self) -> bool:
         """Even a stopped picture gets one sample after a restart."""
         wanted = self._playing or self._moving or not self._count
-        return wanted and self._count < self._most and "rendering" not in self._faults
+        is_behind = self._built_in is not None and self._built_in.is_behind(self._count)
+        return wanted and (self._count < self._most or is_behind) and "rendering" not in self._faults
+
+    def _stops(self, _: float) -> bool:
+        return bool(self._changes) or self._is_closed
 
     def _drop(self, error: Error) -> None:
         if self._context:
@@ -124,7 +132,10 @@ class Renderer:
         if restarts:
             self._restart(self._context)
         if self._is_watched and self._runs():
-            self._accumulate(self._context)
+            if self._count < self._most:
+                self._accumulate(self._context)
+            elif self._compare(self._context, STILL_SECONDS / SHARE) or changes:
+                self._publish()
         elif changes:
             self._publish()
 
@@ -152,13 +163,14 @@ class Renderer:
         context.set_render(replace(self._settings, width=width, height=height))
         self._history, self._seconds, self._count, self._next_publish, self._cost = [], 0.0, 0, 0.0, math.inf
         self._guides.clear()
+        self._begins = True
 
     def _accumulate(self, context: Context) -> None:
         begin = time.monotonic()
         pixels = math.prod(self._shape)
         due = max(self._next_publish - begin, 0.0)
         count = min(max(int(due * self._rate / pixels), 1), self._most - self._count, max(2 * self._count, 1))
-        result = context.accumulate(count, progress=lambda _: bool(self._changes) or self._is_closed)
+        result = context.accumulate(count, progress=self._stops)
         now = time.monotonic()
         self._seconds += now - begin
         taken = context.stats().sample_count - self._count
@@ -167,6 +179,8 @@ class Renderer:
             self._rate = count * pixels / (now - begin)
         elif not self._rate:
             self._rate = pixels / (now - begin)
+        self._compare(context, now - begin)
+        now = time.monotonic()
         if self._count and (now >= self._next_publish or self._count >= self._most):
             self._publish()
             self._cost = min(time.monotonic() - now, self._cost)
@@ -174,6 +188,13 @@ class Renderer:
             pause = 0.0 if self._moving else max(pause, 0.1)
             self._next_publish = time.monotonic() + pause
 
+    def _compare(self, context: Context, seconds: float) -> bool:
+        if self._built_in is None or self._moving:
+            return False
+        if self._begins:
+            self._begins = False
+            self._built_in.begin(self._shown.scene, self._camera, self._settings)
+        return self._built_in.step(context, self._count, seconds, self._stops)
 
     def _look(self) -> dict[pathlib.Path, tuple[int, int]]:
         files = [*self._shown.files, *(self._shader_dir.glob("*") if self._shader_dir else ())]
@@ -207,6 +228,7 @@ class Renderer:
             try:
                 self._context.reload_shaders()
                 self._faults.pop("shaders", None)
+                self._built_in = self._built_in or BuiltIn(self._device)
                 restarts = True
             except Error as error:
                 self._faults["shaders"] = str(error)
@@ -245,6 +267,7 @@ class Renderer:
                     "first_camera": self._shown.camera._section(), "display": self._shown.display,
                     "max_path_length": self._settings.max_path_length, "sampler": name_of(self._settings.sampler),
                     "estimator": name_of(self._settings.estimator), "revision": self._revision,
+                    "verdict": self._built_in.verdict if self._built_in else "",
                     "faults": [fault for text in self._faults.values() for fault in faults_of(text)]}, pixels, values)
 
     def _emit(self, state: dict[str, Any], pixels: Array | None, values: tuple[Array, ...]) -> None:

@@ -71,6 +71,8 @@ function tell() {
   const doubt = state.uncertain?.length ? ", uncertain" : "";
   $("error").textContent = state.moving ? "" : state.error == null ? "error from 16 samples on"
     : `error ${percent(state.error)} (${percent(state.low)} to ${percent(state.high)}${doubt})`;
+  $("verdict").textContent = state.moving ? "" : state.verdict ?? "";
+  $("verdict").classList.toggle("differs", $("verdict").textContent.startsWith("different"));
   $("device").textContent = state.device ?? "";
   for (const button of $("layers").children)
     button.setAttribute("aria-pressed", button.textContent === state.layer);
