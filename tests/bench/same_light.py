@@ -1,70 +1,81 @@
-"""Measures how often pt.compare calls equal light different, and which changes it finds.
+"""How often pt.compare calls equal light different, which changes it finds, and how many samples this takes.
 
-    python3 tests/bench/same_light.py [--pairs N] [--scenes NAME ...] [--changes]
+    PT_LIBRARY=build/lib/libpt.so PT_PROGRAM=build/bin/pt python3 tests/bench/same_light.py [--scenes NAME ...]
+        [--pairs N] [--random SEED] [--changes | --samples]
 
-PT_LIBRARY names the library. Without --changes, compares N pairs of equal light for each scene and kind of pair. The
-second image of a pair has another method or number of samples. All images have different seeds, and each image is in up to
-four pairs. The scenes are the benchmark's and ten difficult ones: lamps below a pixel, caustics, mostly black. With
---changes, counts the benchmark's scenes that show a change of their brightest lamp, of a material or of a tile.
+Without --changes and --samples it tests N pairs of equal light for each scene and kind of pair. In a pair the second
+image may have another method or number of samples; each image has its own seed. The scenes are the benchmark's and ten
+difficult ones (lamps below a pixel, caustics, mostly black), or with --random the hundred of random_scenes.py.
+--changes counts the scenes that show a change of their brightest lamp, a material, a tile or a density in a kernel.
+--samples finds, by doubling, the samples of two images that show a change of a given size.
 """
 
 import argparse
 import copy
 import pathlib
+import shutil
 import sys
-from types import SimpleNamespace
+import tempfile
+from dataclasses import replace
 
 import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "lib/python"), str(ROOT / "tests/support"), str(ROOT / "tests/render")]
+sys.path[:0] = [str(ROOT / folder) for folder in ("lib/python", "tests/support", "tests/render", "tests/bench")]
+import pt  # noqa: E402
+import random_scenes  # noqa: E402
 from bench_scenes import NAMES, load_scene  # noqa: E402
 from calibration_scenes import scenes as calibration_scenes  # noqa: E402
-from scene_renderer import ESTIMATORS, SAMPLERS, SceneRenderer  # noqa: E402
-
-import pt  # noqa: E402
+from stated_error import read  # noqa: E402
 
 DIFFICULT = ["stars-100", "stars-1000", "fairy-100", "street-60", "corner-ball", "caustic-small", "caustic-balls",
              "glints", "night", "hidden-sun"]
-SIZE = WIDTH, HEIGHT = 48, 32
+SIZE = 48, 32
 SAMPLES = 16
-# Each kind of pair with the samples and the method of the second image.
-KINDS = {"alike": {}, "light": {"estimator": "light"}, "bsdf": {"estimator": "bsdf"}, "random": {"sampler": "random"},
-         "16 times": {"samples": 16 * SAMPLES}}
+# Kinds of pairs, with the second image's samples and method.
+KINDS = {"alike": {}, "light": {"estimator": pt.Estimator.LIGHT}, "bsdf": {"estimator": pt.Estimator.BSDF},
+         "random": {"sampler": pt.Sampler.RANDOM}, "16 times": {"samples": 16 * SAMPLES}}
 RATES = (0.1, 0.01, 1e-3, 1e-6)
-USES = 4
 CHANGES = (0.005, 0.01, 0.03)
 LARGE, MANY = (96, 48), 256
+# Faults of kernels: a file, a text, and the text in its place.
+FAULTS = {"density of lamps by 3%": ("lights.glsl", "surface_of_lamp(choice.lamp)), density)",
+                                     "surface_of_lamp(choice.lamp)), 1.03 * density)"),
+          "density of directions by 3%": ("phong.glsl", "0.5 / PI : density)", "0.5 / PI : 1.03 * density)"),
+          "weight of spots": ("path.glsl", "towards.density * float(BRANCH_COUNT)", "towards.density")}
+NEEDED, MOST, WIDE = (0.01, 0.003, 0.001), 1 << 18, (128, 64)
 
 
 class Images:
     """Images of one scene, each with its own seed."""
 
-    def __init__(self, scene):
-        self.renderer, self.length, self.seed = SceneRenderer(scene), scene["render"]["max_path_length"], 0
+    def __init__(self, scene, seed=0, **context):
+        whole = read(scene)
+        self.context, self.settings, self.seed = pt.Context(**context), whole.settings, seed
+        self.context.set_scene(whole.scene)
+        self.context.set_camera(whole.camera)
 
-    def one(self, size=SIZE, samples=SAMPLES, estimator="best", sampler="sobol"):
+    def begin(self, size, estimator=pt.Estimator.BEST, sampler=pt.Sampler.BEST):
         self.seed += 1
-        self.renderer.set_render(*size, seed=self.seed, max_path_length=self.length, estimator=ESTIMATORS[estimator],
-                                 sampler=SAMPLERS[sampler])
-        self.renderer.accumulate(samples)
-        radiance = np.array(self.renderer.image(), np.float32).reshape(size[1], size[0], 3)
-        counts = SimpleNamespace(sample_count=samples, max_sample_count=samples)
-        error = SimpleNamespace(uncertain=pt.Uncertain.UNMET if estimator == "bsdf" else pt.Uncertain(0))  # as for films
-        return pt.Image(radiance, radiance, np.full((*radiance.shape[:2], 1), samples), error, counts)
+        self.context.set_render(replace(self.settings, width=size[0], height=size[1], seed=self.seed,
+                                        estimator=estimator, sampler=sampler))
+
+    def one(self, size=SIZE, samples=SAMPLES, **method):
+        self.begin(size, **method)
+        self.context.accumulate(samples)
+        return self.context.image()
 
 
 def probabilities(images, fields, pairs):
-    count = -(-pairs // USES)
-    first, second = ([images.one(**each) for _ in range(count)] for each in ({}, fields))
-    return [pt.compare(first[i % count], second[(i + i // count) % count]).probability for i in range(pairs)]
+    return [pt.compare(images.one(), images.one(**fields)).probability for _ in range(pairs)]
 
 
-def false_alarms(names, pairs):
+def false_alarms(scenes, pairs):
+    """The probabilities of all pairs, by kind."""
     print("scene                " + "".join(f"{kind:>12}" for kind in KINDS) + "   (least probability)")
     found = {kind: [] for kind in KINDS}
-    for name in names:
-        images, least = Images(scene_of(name)), []
+    for name, scene in scenes.items():
+        images, least = Images(scene), []
         for kind, fields in KINDS.items():
             each = probabilities(images, fields, pairs)
             found[kind] += each
@@ -75,51 +86,86 @@ def false_alarms(names, pairs):
               ", ".join(f"{rate:g}: {sum(p <= rate for p in each)}" for rate in RATES))
 
 
-def brighter(scene, key, share):
-    """Returns the scene with another value of `key` in the material with the largest value."""
+def darker(scene, key, share):
+    """The scene with a change of the strongest material's key."""
     changed = copy.deepcopy(scene)
     strongest = max(changed["materials"].values(), key=lambda each: np.sum(each.get(key, 0)))
     strongest[key] = (np.array(strongest[key]) * (1 - share)).tolist()
     return changed
 
 
-def changes(names):
-    """Counts the scenes in which each change is found."""
+def faulty_kernels(folder, fault):
+    name, text, fault_text = fault
+    kernels = pathlib.Path(shutil.copytree(ROOT / "shaders", pathlib.Path(folder, "kernels")))
+    code = (kernels / name).read_text(encoding="utf-8")
+    if code.count(text) != 1:
+        raise ValueError(f"{name} does not contain {text} once")
+    (kernels / name).write_text(code.replace(text, fault_text), encoding="utf-8")
+    return kernels
+
+
+def changes(scenes):
     found = {}
-    for name in names:
-        scene = scene_of(name)
+    for name, scene in scenes.items():
         reference = Images(scene).one(LARGE, MANY)
+        other = Images(scene, 100).one(LARGE, MANY)
+        print(f"{name:<21}{pt.compare(other, reference)}", flush=True)
+
+        def look(change, image):
+            found.setdefault(change, []).append(pt.compare(image, reference).light == pt.Light.DIFFERENT)
+
         for share in CHANGES:
-            changed = {"lamp": brighter(scene, "emission", share), "material": brighter(scene, "diffuse", share)}
-            for kind, each in changed.items():
-                images = Images(each)
-                images.seed = 100
-                found.setdefault((kind, share), []).append(pt.compare(images.one(LARGE, MANY), reference))
-            images = Images(scene)
-            images.seed = 100
-            tile = images.one(LARGE, MANY).radiance
+            look(f"lamp by {share:.1%}", Images(darker(scene, "emission", share), 100).one(LARGE, MANY))
+            look(f"material by {share:.1%}", Images(darker(scene, "diffuse", share), 100).one(LARGE, MANY))
+            tile = other.radiance.copy()
             tile[16:48, 32:64] *= 1 - share
-            found.setdefault(("tile", share), []).append(pt.compare(tile, reference))
-            if share == CHANGES[0]:
-                print(f"{name:<21}{pt.compare(images.one(LARGE, MANY), reference)}", flush=True)
-    for (kind, share), each in found.items():
-        print(f"{kind} by {share:.1%}: found in {sum(c.light == pt.Light.DIFFERENT for c in each)} of {len(each)}")
+            look(f"tile by {share:.1%}", tile)
+        for change, fault in FAULTS.items():
+            with tempfile.TemporaryDirectory() as folder:
+                look(change, Images(scene, 100, shader_dir=faulty_kernels(folder, fault)).one(LARGE, MANY))
+    for change, each in found.items():
+        print(f"{change}: found in {sum(each)} of {len(each)}")
 
 
-def scene_of(name):
-    return load_scene(name) if name in NAMES else calibration_scenes()[name]
+def samples_needed(scenes):
+    width, height = WIDE
+    print(f"{width}x{height}; a change of  " + "".join(f"{share:>9.1%}" for share in NEEDED))
+    for name, scene in scenes.items():
+        pair = [Images(scene, seed) for seed in (0, 1)]
+        for images in pair:
+            images.begin(WIDE)
+        needed, samples, taken = [], SAMPLES, 0
+        while len(needed) < len(NEEDED) and samples <= MOST:
+            for images in pair:
+                images.context.accumulate(samples - taken)
+            smallest = pt.compare(*(images.context.image() for images in pair)).smallest_change
+            needed += [samples for share in NEEDED[len(needed):] if smallest <= share]
+            samples, taken = 2 * samples, samples
+        needed += [f"> {MOST}"] * (len(NEEDED) - len(needed))
+        print(f"{name:<22}" + "".join(f"{each:>9}" for each in needed), flush=True)
+
+
+def scenes_of(names):
+    own = calibration_scenes()
+    return {name: load_scene(name) if name in NAMES else own[name] for name in names}
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--pairs", type=int, default=84)
     parser.add_argument("--scenes", nargs="+")
+    parser.add_argument("--random", type=int, metavar="SEED")
     parser.add_argument("--changes", action="store_true")
+    parser.add_argument("--samples", action="store_true")
     given = parser.parse_args()
     if given.changes:
-        changes(given.scenes or NAMES)
+        changes(scenes_of(given.scenes or NAMES))
+    elif given.samples:
+        samples_needed(scenes_of(given.scenes or ["coursework", "closed-room", "caustic"]))
+    elif given.random is not None:
+        false_alarms(dict(random_scenes.hundred(given.random)), given.pairs)
     else:
-        false_alarms(given.scenes or NAMES + DIFFICULT, given.pairs)
+        false_alarms(scenes_of(given.scenes or NAMES + DIFFICULT), given.pairs)
 
 
 if __name__ == "__main__":
