@@ -9,7 +9,7 @@ import signal
 import subprocess
 import time
 
-from command_line import COURSEWORK, PATIENCE, PT, SCENES, CommandLineTest, default_signals, main
+from command_line import COURSEWORK, PATIENCE, PT, SCENES, CommandLineTest, default_signals
 
 KILLS = int(os.environ.get("PT_TEST_KILLS", "4"))
 MOST_DELAY = 0.7
@@ -214,7 +214,3 @@ class Resume(CommandLineTest):
         for damaged in self.checkpoint[:100], self.checkpoint[:-1], flipped:
             self.write("c.ptfilm", damaged)
             self.refuse("c.ptfilm: ")
-
-
-if __name__ == "__main__":
-    main()

@@ -1,7 +1,7 @@
 import json
 import os
 
-from command_line import PT, CommandLineTest, main, npy, read_exr_channels
+from command_line import PT, CommandLineTest, npy, read_exr_channels
 
 CENTERS = [0.0, 0.5, -5.0, 1.25, 0.5, -6.0, -1.0, 0.25, -4.0]
 RADII = [0.5, 1.0, 0.25]
@@ -156,7 +156,3 @@ class RealDevice(ColumnsTest):
         self.expect(3, "render", "s.json", "-o", "a.png", error="spheres[2].radius = -2: must be > 0")
         self.scene({"center": "c.npy", "radius": "r.npy", "material": "a"}, one)
         self.expect(3, "render", "s.json", "-o", "a.png", error=": spheres[1].radius[1] = -1: must be > 0")
-
-
-if __name__ == "__main__":
-    main()

@@ -1,5 +1,4 @@
-"""Runs the program in an empty folder. Arguments of scripts: PT PT_WITH_FAKE_LIBRARY SCENES [unittest arguments].
-Most cases use fake_library.cpp, which needs no device. Classes named RealDevice use the program itself."""
+"""Runs the program in an empty folder. Most cases use fake_library.cpp, which needs no device. Classes named RealDevice use the program itself."""
 
 import os
 import pathlib
@@ -10,11 +9,11 @@ import sys
 import tempfile
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from exr import read_exr_attributes, read_exr_blocks, read_exr_channels  # noqa: E402, F401
-from png import parse_png, png_chunks, read_png  # noqa: E402, F401
+from exr import read_exr_attributes, read_exr_blocks, read_exr_channels  # noqa: F401
+from png import parse_png, png_chunks, read_png  # noqa: F401
 
-PT, FAKE_PT, SCENES = sys.argv[1:4]
+PT, FAKE_PT = os.environ["PT_PROGRAM"], os.environ["PT_FAKE_PROGRAM"]
+SCENES = str(pathlib.Path(__file__).resolve().parents[2] / "cli/scenes")
 COURSEWORK = os.path.join(SCENES, "coursework-diffuse.json")  # gives no warnings
 
 # A program counts as hung after this many seconds. Expected events come much sooner on any machine, or never.
@@ -91,7 +90,3 @@ class CommandLineTest(unittest.TestCase):
 
     def files(self):
         return sorted(os.listdir(self.folder))
-
-
-def main():
-    unittest.main(argv=sys.argv[:1] + sys.argv[4:])

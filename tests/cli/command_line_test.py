@@ -5,7 +5,7 @@ import resource
 import signal
 import struct
 
-from command_line import (COURSEWORK, PT, RESULT, CommandLineTest, default_signals, main, read_exr_attributes, read_png)
+from command_line import (COURSEWORK, PT, RESULT, CommandLineTest, default_signals, read_exr_attributes, read_png)
 
 
 class Usage(CommandLineTest):
@@ -278,7 +278,3 @@ class Warnings(CommandLineTest):
         self.write("s.json", "{}")
         self.expect(3, "render", "s.json", "-o", "a.png", FAKE_PT_FAIL="set_scene:-2", FAKE_PT_MESSAGE="a rule")
         self.assertNotIn("warning", self.errors)
-
-
-if __name__ == "__main__":
-    main()

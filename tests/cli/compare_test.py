@@ -2,7 +2,7 @@ import json
 import os
 import shutil
 
-from command_line import COURSEWORK, PT, SCENES, CommandLineTest, main, read_png
+from command_line import COURSEWORK, PT, SCENES, CommandLineTest, read_png
 
 SHADERS = os.path.join(SCENES, "..", "..", "shaders")
 MODULE = os.path.join(os.path.dirname(os.path.dirname(PT)), "lib", "pt", "libpt-glsl.so")
@@ -172,7 +172,3 @@ class LightOnDevice(CommandLineTest):
         self.assertEqual(json.loads(self.read("j.json"))["light"], "different")
         self.expect(9, *scene, "--set", "render.spp=2")
         self.expect(2, *scene, "--set", "render.sampler=halton", error="sampler = 2: must not be")
-
-
-if __name__ == "__main__":
-    main()

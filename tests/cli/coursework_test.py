@@ -6,7 +6,7 @@ import subprocess
 
 import numpy
 
-from command_line import PT, SCENES, CommandLineTest, main, read_exr_channels
+from command_line import PT, SCENES, CommandLineTest, read_exr_channels
 
 ROOT = os.path.join(SCENES, "..", "..")
 REFERENCES = os.path.join(ROOT, "tests", "reference")
@@ -72,7 +72,3 @@ class Coursework(CommandLineTest):
         all_of_it, blocks = deviations(images["3-paths"], shorter)
         self.assertGreater(all_of_it, MOST_DEVIATION)
         self.assertGreater(blocks, MOST_OF_BLOCKS)
-
-
-if __name__ == "__main__":
-    main()

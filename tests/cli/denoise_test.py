@@ -4,7 +4,7 @@ import json
 import os
 import struct
 
-from command_line import (COURSEWORK, PT, CommandLineTest, main, png_chunks, read_exr_attributes, read_exr_channels,
+from command_line import (COURSEWORK, PT, CommandLineTest, png_chunks, read_exr_attributes, read_exr_channels,
                           read_png)
 
 DENOISE = "--denoise=" + os.environ["OPEN_IMAGE_DENOISE"]
@@ -148,7 +148,3 @@ class RealDeviceDenoise(DenoiseTest):
                         error=f'--denoise = "{name}": Open Image Denoise 2 cannot be loaded')
             self.assertIn("; pip install pyoidn brings it", self.errors)
         self.assertEqual(self.files(), [])
-
-
-if __name__ == "__main__":
-    main()

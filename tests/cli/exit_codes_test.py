@@ -1,7 +1,7 @@
 import os
 import re
 
-from command_line import COURSEWORK, FAKE_PT, PT, RESULT, SCENES, CommandLineTest, main
+from command_line import COURSEWORK, FAKE_PT, PT, RESULT, SCENES, CommandLineTest
 
 with open(os.path.join(os.path.dirname(SCENES), "README.md"), encoding="utf-8") as file:
     SECTION = file.read().split("\n## Exit codes\n")[1]
@@ -79,7 +79,3 @@ class ExitCodes(CommandLineTest):
                 self.assertTrue(self.errors.startswith(said), self.errors)
                 found = [name for name in self.files() if name not in given]
                 self.assertEqual(found, left)
-
-
-if __name__ == "__main__":
-    main()

@@ -3,7 +3,7 @@ import os
 import subprocess
 import unittest
 
-from command_line import COURSEWORK, PATIENCE, RESULT, CommandLineTest, default_signals, main
+from command_line import COURSEWORK, PATIENCE, RESULT, CommandLineTest, default_signals
 
 SCENE = '{"film": {"width": 4, "height": 3}, "render": {"spp": 2}}'
 
@@ -151,7 +151,3 @@ class LinksOfOthers(CommandLineTest):
                 self.expect(6, *command, f"open/{name}", error=f"cannot write open/{name}: the link open/{name} {self.RULE}")
                 self.assertEqual((self.read("of root"), self.files()),
                                  ("kept", ["of root", "open", "r.exr", "s.json"]))
-
-
-if __name__ == "__main__":
-    main()

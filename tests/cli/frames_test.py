@@ -2,7 +2,7 @@ import json
 import os
 import signal
 
-from command_line import COURSEWORK, PT, CommandLineTest, main, read_png
+from command_line import COURSEWORK, PT, CommandLineTest, read_png
 
 SCENE = {"camera": {"position": [0, 0, 4], "look_at": [0, 0, 0], "shutter": [0, 0.5]},
          "film": {"width": 16, "height": 8, "exposure": 0}, "render": {"max_path_length": 1, "spp": 16, "seed": 5},
@@ -109,7 +109,3 @@ class RealDevice(FramesTest):
     def test_options_count_more_than_the_animation(self):
         self.expect(0, "render", "s.json", "--frames", "1", "-o", "a#.png", "-q", "--set", "materials.a.emission=0")
         self.assertEqual({value for row in self.pixels("a1.png")[2] for value in row}, {0})
-
-
-if __name__ == "__main__":
-    main()

@@ -5,7 +5,7 @@ import signal
 import struct
 import time
 
-from command_line import (COURSEWORK, PT, RESULT, CommandLineTest, main, parse_png, png_chunks,
+from command_line import (COURSEWORK, PT, RESULT, CommandLineTest, parse_png, png_chunks,
                           read_exr_attributes, read_png)
 
 WIDTH, HEIGHT = 9, 7
@@ -227,7 +227,3 @@ class RealDevice(ImagesTest):
         whole, crop = (read_png(self.path(name))[2] for name in ("whole.png", "crop.png"))
         self.assertEqual(crop, cut(whole, CROP))
         self.assertNotEqual(crop, cut(whole, (1, 3, 5, 4)))
-
-
-if __name__ == "__main__":
-    main()

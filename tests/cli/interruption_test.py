@@ -6,7 +6,7 @@ import signal
 import subprocess
 import termios
 
-from command_line import COURSEWORK, PATIENCE, CommandLineTest, default_signals, main, read_png
+from command_line import COURSEWORK, PATIENCE, CommandLineTest, default_signals, read_png
 
 
 class Interruption(CommandLineTest):
@@ -63,7 +63,3 @@ class Interruption(CommandLineTest):
 
     def test_validation_messages_weigh_more(self):
         self.assertEqual(self.interrupt(5, "--validation", FAKE_PT_LOG="destroy"), 1)
-
-
-if __name__ == "__main__":
-    main()

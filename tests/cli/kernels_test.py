@@ -1,7 +1,7 @@
 import os
 import re
 
-from command_line import COURSEWORK, PT, CommandLineTest, main
+from command_line import COURSEWORK, PT, CommandLineTest
 
 
 class RealDeviceKernels(CommandLineTest):
@@ -43,7 +43,3 @@ class RealDeviceKernels(CommandLineTest):
         self.assertEqual(self.errors, "")
         self.assertEqual(self.render(XDG_CACHE_HOME="", HOME=""), picture)
         self.assertEqual(self.errors, "")
-
-
-if __name__ == "__main__":
-    main()

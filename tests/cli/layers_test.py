@@ -1,7 +1,7 @@
 import math
 import struct
 
-from command_line import COURSEWORK, PT, CommandLineTest, main, read_exr_attributes, read_exr_channels, read_png
+from command_line import COURSEWORK, PT, CommandLineTest, read_exr_attributes, read_exr_channels, read_png
 
 WIDTH, HEIGHT = 9, 37
 SIZE = ("--size", f"{WIDTH}x{HEIGHT}", "--spp", "2")
@@ -170,7 +170,3 @@ class RealDeviceLayers(LayersTest):
         self.assertEqual(self.contents("a.png"), self.contents("b.png"))
         self.expect(0, "compare", "a.exr", "a.exr", "--layer", "N")
         self.assertEqual(self.errors, "")
-
-
-if __name__ == "__main__":
-    main()

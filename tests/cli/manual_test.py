@@ -4,7 +4,7 @@ import re
 import shlex
 import shutil
 
-from command_line import PT, SCENES, CommandLineTest, main
+from command_line import PT, SCENES, CommandLineTest
 
 with open(os.path.join(os.path.dirname(SCENES), "README.md"), encoding="utf-8") as file:
     MANUAL = file.read()
@@ -220,7 +220,3 @@ class RealDevice(CommandLineTest):
                 row, = (row for row in rows if f"`{names}`" in row[0])
                 if not row[1].startswith("as in `pt render`"):
                     self.assertEqual(names_in(row[2]), value.split("|"), names)
-
-
-if __name__ == "__main__":
-    main()

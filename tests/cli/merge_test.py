@@ -2,7 +2,7 @@ import json
 import os
 import random
 
-from command_line import COURSEWORK, PT, CommandLineTest, main, read_exr_attributes, read_exr_blocks, read_png
+from command_line import COURSEWORK, PT, CommandLineTest, read_exr_attributes, read_exr_blocks, read_png
 
 PARTS = 8
 
@@ -107,7 +107,3 @@ class Merge(CommandLineTest):
     def test_it_needs_no_device(self):
         self.expect(0, "merge", *self.parts, "-o", "a.png", VK_DRIVER_FILES=os.devnull, VK_ICD_FILENAMES=os.devnull)
         self.expect(4, "render", COURSEWORK, "-o", "b.png", VK_DRIVER_FILES=os.devnull, VK_ICD_FILENAMES=os.devnull)
-
-
-if __name__ == "__main__":
-    main()

@@ -3,7 +3,7 @@
 import os
 import subprocess
 
-from command_line import PT, CommandLineTest, main
+from command_line import PT, CommandLineTest
 
 
 class OtherProgram(CommandLineTest):
@@ -78,7 +78,3 @@ class OtherProgram(CommandLineTest):
         run = self.run_with(self.path("first"), "hello")
         self.assertEqual((run.returncode, run.stderr),
                          (6, f"pt: {program}: cannot be run: No such file or directory\n"))
-
-
-if __name__ == "__main__":
-    main()

@@ -2,7 +2,7 @@ import json
 import resource
 import signal
 
-from command_line import COURSEWORK, PT, PATIENCE, CommandLineTest, default_signals, main, read_png
+from command_line import COURSEWORK, PT, PATIENCE, CommandLineTest, default_signals, read_png
 
 SIZE = ("--size", "40x33")
 
@@ -116,7 +116,3 @@ class RealDevice(CommandLineTest):
         # A piece has fewer pixels and therefore a larger margin.
         for key in ("rmse", "relative_rmse"):
             self.assertAlmostEqual(pieces[key], whole[key], delta=0.25 * whole[key])
-
-
-if __name__ == "__main__":
-    main()

@@ -6,7 +6,7 @@ import struct
 import subprocess
 import termios
 
-from command_line import COURSEWORK, PATIENCE, CommandLineTest, main
+from command_line import COURSEWORK, PATIENCE, CommandLineTest
 
 
 class ProgressOutput(CommandLineTest):
@@ -47,7 +47,3 @@ class ProgressOutput(CommandLineTest):
 
     def test_narrow_terminals(self):
         self.assertIn(b"100.0 %  ETA 0:00:00\r", self.terminal_output((24, 21)))
-
-
-if __name__ == "__main__":
-    main()

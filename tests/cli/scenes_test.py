@@ -4,7 +4,7 @@ import json
 import os
 import pathlib
 
-from command_line import PT, SCENES, CommandLineTest, main
+from command_line import PT, SCENES, CommandLineTest
 from scene_file import read_scene
 
 # The materials of these scenes reflect more light than they receive, as in the original coursework.
@@ -36,7 +36,3 @@ class RealDevice(CommandLineTest):
                 stats = json.loads(self.read("s.json"))
                 self.assertEqual((stats["spp"], stats["rejected_samples"]), (1, 0))
                 self.assertEqual(len(stats["warnings"]), int(name in WARNED_OF), stats["warnings"])
-
-
-if __name__ == "__main__":
-    main()

@@ -6,7 +6,7 @@ import math
 import os
 
 import jsonschema
-from command_line import PT, SCENES, CommandLineTest, main, npy
+from command_line import PT, SCENES, CommandLineTest, npy
 from manual_test import SECTIONS, section_rows
 from scene_file import read_scene
 
@@ -137,7 +137,3 @@ class Schema(CommandLineTest):
             counts[kind] += 1
         for kind, least in (("valid", 50), ("reader", 200), ("library", 30), ("beyond", 2)):
             self.assertGreater(counts[kind], least, counts)
-
-
-if __name__ == "__main__":
-    main()

@@ -2,7 +2,7 @@ import json
 import os
 import shutil
 
-from command_line import PT, RESULT, SCENES, CommandLineTest, main
+from command_line import PT, RESULT, SCENES, CommandLineTest
 
 
 class Selftest(CommandLineTest):
@@ -86,7 +86,3 @@ class RealDevice(CommandLineTest):
             with self.subTest(weight=weight):
                 self.assertEqual(self.failed_directions((file, weight, f"1.02 * {weight}")),
                                  [f"weights of a {name}" for name in failing])
-
-
-if __name__ == "__main__":
-    main()

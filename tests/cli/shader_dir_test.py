@@ -4,7 +4,7 @@ import os
 import shutil
 import subprocess
 
-from command_line import PT, SCENES, CommandLineTest, main, read_png
+from command_line import PT, SCENES, CommandLineTest, read_png
 from watching import WatchTest, scene_text
 
 SHADERS = os.path.join(SCENES, "..", "..", "shaders")
@@ -176,7 +176,3 @@ class Module(CommandLineTest):
         shutil.copy(MODULE, self.path("lib/pt"))
         self.expect(0, *arguments, **environment)
         self.expect(0, *arguments, LD_LIBRARY_PATH="lib")
-
-
-if __name__ == "__main__":
-    main()

@@ -3,7 +3,7 @@ import os
 import signal
 import subprocess
 
-from command_line import COURSEWORK, PATIENCE, PT, CommandLineTest, main, read_exr_channels, read_png
+from command_line import COURSEWORK, PATIENCE, PT, CommandLineTest, read_exr_channels, read_png
 
 ENDLESS = ("--spp", "1000000", "--time", "0.5")
 SLOW = {"FAKE_PT_SAMPLE_MS": 20}
@@ -226,7 +226,3 @@ class RealDeviceError(CommandLineTest):
                             str(stats["spp"] - step))
         self.assertEqual(found, 7)
         self.assertFalse(json.loads(self.read("s.json"))["target_reached"])
-
-
-if __name__ == "__main__":
-    main()

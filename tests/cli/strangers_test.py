@@ -7,7 +7,7 @@ import signal
 import struct
 import time
 
-from command_line import COURSEWORK, PT, SCENES, CommandLineTest, main, npy
+from command_line import COURSEWORK, PT, SCENES, CommandLineTest, npy
 
 SHADERS = os.path.join(SCENES, "..", "..", "shaders")
 SMALL = ("-o", "a.png", "--size", "2x2", "--spp", "1")
@@ -153,7 +153,3 @@ class Compiler(CommandLineTest):
         process.communicate(timeout=60)
         self.assertEqual(process.returncode, -signal.SIGTERM)
         self.assertEqual(self.files(), ["s.json", "shaders"])
-
-
-if __name__ == "__main__":
-    main()

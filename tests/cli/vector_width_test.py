@@ -3,7 +3,7 @@ import os
 import platform
 import unittest
 
-from command_line import COURSEWORK, PT, CommandLineTest, main, read_exr_attributes, read_exr_blocks
+from command_line import COURSEWORK, PT, CommandLineTest, read_exr_attributes, read_exr_blocks
 
 FEATURES = {"avx512f", "avx512bw", "avx512dq", "avx512vl"}
 CHOICES = ("LP_NATIVE_VECTOR_WIDTH", "MESA_SHADER_CACHE_DIR", "MESA_SHADER_CACHE_DISABLE", "MESA_GLSL_CACHE_DIR",
@@ -57,7 +57,3 @@ class RealDeviceWidth(CommandLineTest):
             name = self.render(f"{width}.exr", LP_NATIVE_VECTOR_WIDTH=width, MESA_SHADER_CACHE_DISABLE="true")
             self.assertIn(f"{width} bits", name)
         self.assertEqual(read_exr_blocks(self.path("256.exr")), read_exr_blocks(self.path("512.exr")))
-
-
-if __name__ == "__main__":
-    main()

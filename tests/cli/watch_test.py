@@ -2,7 +2,7 @@ import json
 import os
 import signal
 
-from command_line import main, npy, read_png
+from command_line import npy, read_png
 from watching import WatchTest, scene_text
 
 
@@ -121,7 +121,3 @@ class Scenes(WatchTest):
         self.assertEqual(pt.end(), 130)
         self.assertEqual(pt.count("pt: stopped by SIGINT"), 1)
         self.assertEqual(pt.count("wrote"), int("a.png" in self.files()))
-
-
-if __name__ == "__main__":
-    main()

@@ -337,7 +337,3 @@ class Trails(unittest.TestCase):
         few, more = self.frame([[1, 1, 1]]), self.frame([[1, 1, 1], [2, 2, 2]])
         with self.assertRaisesRegex(ValueError, "trails: array: of 1 particles and, later, 2, there must be a column id"):
             self.steps([few, more], 1)
-
-
-if __name__ == "__main__":
-    unittest.main()

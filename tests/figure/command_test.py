@@ -1,9 +1,10 @@
-"""Tests what pt-figure writes and refuses. Argument: the program pt, which renders written scenes, or none."""
+"""Tests what pt-figure writes and refuses."""
 
 import contextlib
 import importlib.util
 import io
 import json
+import os
 import pathlib
 import subprocess
 import sys
@@ -20,7 +21,7 @@ if importlib.util.find_spec("matplotlib") is None:
     print("matplotlib is not installed")
     sys.exit(77)
 
-PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else None
+PROGRAM = os.environ.get("PT_PROGRAM")
 SMALL = ("--size", "48x32", "--spp", "2", "--color", "#4060c0")
 WATER = """3
 Lattice="4 0 0 0 4 0 0 0 4" Properties=species:S:1:pos:R:3:speed:R:1
@@ -151,7 +152,3 @@ class Command(unittest.TestCase):
             for name in action.option_strings:
                 if name not in ("-h", "--help", "-q", "-o"):
                     self.assertIn(f"`{name}`", manual)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -209,7 +209,3 @@ class Radii(unittest.TestCase):
             cloud[1] = cloud[0] + 0.01  # The fourth neighbor decides, as in random points.
             cloud[-1] = 1000
             self.assertLess(self.automatic(cloud)[0], 2)
-
-
-if __name__ == "__main__":
-    unittest.main()

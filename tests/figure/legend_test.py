@@ -72,7 +72,3 @@ class InThePicture(unittest.TestCase):
         self.assertEqual((plain.shape, plain.legend), ((48, 64, 3), None))
         with self.assertRaisesRegex(ValueError, "no room for particles beside the color bar"):
             pt.figure(np.eye(3), color=[1.0, 2, 3], colorbar=True, size=(48, 200))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -211,7 +211,3 @@ class Background(unittest.TestCase):
             self.assertLess(np.abs(over - linear(white / 255.0)).max(), 3 / 255)
             floor = picture(floor=True, view="top")
             self.assertTrue((floor.min(axis=(0, 1)) < white.min(axis=(0, 1))).any() or (floor != white).any())
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -257,7 +257,3 @@ class Files(unittest.TestCase):
             self.assertEqual(done.stdout.decode(), f"{PLACES.tolist()}\n")
         done = subprocess.run([sys.executable, "-c", program], input=b"LASF", capture_output=True)
         self.assertIn("standard input: laspy reads files: standard input must be one of", done.stderr.decode())
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,5 +1,4 @@
-"""Files of independent writers and of users must have the expected content, or be refused by name, line and rule.
-Argument: the folder of the files. All files cloud.* have the same particles."""
+"""Files of independent writers and of users must have the expected content, or be refused by name, line and rule. All files cloud.* have the same particles."""
 
 import bz2
 import gzip
@@ -7,7 +6,6 @@ import importlib.util
 import lzma
 import os
 import pathlib
-import sys
 import tempfile
 import threading
 import unittest
@@ -17,7 +15,7 @@ from pt.figures import frames, load
 from pt.figures._errors import DataError
 from pt.figures.readers import _rows
 
-DATA = pathlib.Path(sys.argv.pop(1))
+DATA = pathlib.Path(__file__).resolve().parents[2] / "tests/data/particles"
 HAS_PANDAS = importlib.util.find_spec("pandas") is not None
 
 DUMP = ("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS pp ff pp\n0 1\n0 2\n0 4\n"
@@ -358,7 +356,3 @@ class Damaged(InAFolder):
                             self.assertLess(rows, 2)
         self.assertGreater(refused, DAMAGES * len(DAMAGED) // 4)
         self.assertGreater(changed, DAMAGES)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -189,7 +189,3 @@ class TypicalRadius(unittest.TestCase):
                     expected = np.median(nearest[:, 3])
                 np.testing.assert_allclose(typical_radius(points.astype(np.float32)), 0.5 * expected, rtol=0.1)
         self.assertEqual(typical_radius(np.ones((5, 3))), 1.0)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -145,7 +145,3 @@ class Lines(unittest.TestCase):
                     around |= np.roll(near, (down, across), (0, 1))
             self.assertTrue((outline[~around] == 0).all())
             self.assertGreater((outline[share(rims, size) > 0] > 0).mean(), 0.98)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,11 +1,9 @@
-"""Tests atoms, elements, bonds and cells of small files of all formats. Argument: the folder of files modeled on
-users' reports."""
+"""Tests atoms, elements, bonds and cells of small files of all formats."""
 
 import gzip
 import importlib.util
 import pathlib
 import struct
-import sys
 import tempfile
 import unittest
 import unittest.mock
@@ -20,7 +18,7 @@ from structures_cases import CASES, MMCIF, REFUSED, gro, lammps
 DAMAGES = 6  # per file
 LETTERS = b" \n0123456789.-+eEdX\"'\t\xff\0"
 
-DATA = pathlib.Path(sys.argv.pop(1))
+DATA = pathlib.Path(__file__).resolve().parents[2] / "tests/data/structures"
 HAS = {name: importlib.util.find_spec(name) is not None for name in ("gemmi", "chemfiles", "gsd")}
 NEEDS = {".pdb": "gemmi", ".ent": "gemmi", ".pdbqt": "gemmi", ".cif": "gemmi", ".sdf": "chemfiles", ".mol2": "chemfiles",
          ".cml": "chemfiles", ".gsd": "gsd"}
@@ -242,7 +240,3 @@ class Reported(InAFolder):
         self.assertIn("colors need red, green, blue: one of them is missing", found.notes)
         self.assertEqual(self.read("a.csv", (DATA / "27-astronomy.csv").read_bytes()).types.tolist(),
                          ["Sun", "Earth, with Moon", "Moon", "Jupiter"])
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,11 +1,10 @@
-"""Compares the project's pages with the code. Files named in comments must exist. Argument: the project's folder."""
+"""Compares the project's pages with the code. Files named in comments must exist."""
 
 import pathlib
 import re
-import sys
 import unittest
 
-ROOT = pathlib.Path(sys.argv[1])
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGES = [path for folder in (".", "cli", "lib", "shaders", "tests") for path in (ROOT / folder).glob("*.md")]
 PAGES += [*(ROOT / "tests").glob("*/**/*.md"), *(ROOT / "lib").glob("*/*.md")]
 CURRENT = [page for page in PAGES if page.name not in ("CHANGELOG.md", "NOTEBOOK.md")]  # pages without history
@@ -160,7 +159,3 @@ class Documents(unittest.TestCase):
         named = [name for row in re.findall(r"^\| (`pt_.*?) \|", table, re.MULTILINE) for name in re.findall(r"`(\w+)`", row)]
         self.assertGreater(len(declared), 10)
         self.assertEqual(sorted(named), sorted(declared))
-
-
-if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1])

@@ -1,12 +1,12 @@
 """Checks that cmake/licenses/parts.txt names all code of others: headers, linked libraries, and files with a license
-beside them. Arguments: the project's folder, and a build's folder."""
+beside them."""
 
+import os
 import pathlib
 import re
-import sys
 import unittest
 
-ROOT, BUILD = map(pathlib.Path, sys.argv[1:])
+ROOT, BUILD = pathlib.Path(__file__).resolve().parents[2], pathlib.Path(os.environ["PT_BUILD"])
 LICENSES = ROOT / "cmake/licenses"
 # Libraries and headers of the system and the compiler. Their licenses require nothing of programs.
 SYSTEM_LIBRARIES = {"libvulkan", "dl", "rt"}
@@ -79,6 +79,3 @@ class Licenses(unittest.TestCase):
         rows = [line.split("|") for line in (LICENSES / "parts.txt").read_text().splitlines() if not line.startswith("#")]
         named = {license for row in rows for license in row[4].split(" and ")} | {"Expat"}
         self.assertEqual(named, {path.stem for path in LICENSES.glob("*.txt")} - {"parts"})
-
-
-unittest.main(argv=sys.argv[:1])

@@ -1,16 +1,14 @@
-"""Tests the commands and the exit status of cmake/quickstart.sh, with stand-ins for its programs. Argument: the
-script."""
+"""Tests the commands and the exit status of cmake/quickstart.sh, with stand-ins for its programs."""
 
 import os
 import re
 import pathlib
 import shutil
 import subprocess
-import sys
 import tempfile
 import unittest
 
-SCRIPT = pathlib.Path(sys.argv[1])
+SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "cmake/quickstart.sh"
 
 # The stand-in records its command line, and exits with its status in FAILING.
 STAND_IN = """#!/bin/sh
@@ -126,7 +124,3 @@ class Quickstart(unittest.TestCase):
         for script in *SCRIPT.parent.glob("*.sh"), broken:
             read = subprocess.run(["sh", "-n", script], stderr=subprocess.DEVNULL)
             self.assertEqual(read.returncode == 0, script != broken, script)
-
-
-if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1])

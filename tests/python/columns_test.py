@@ -141,7 +141,3 @@ class Columns(unittest.TestCase):
         empty = pt.SphereArray(np.zeros((0, 3)), np.zeros(0), WHITE)
         np.testing.assert_array_equal(radiance(self.context, scene_of(empty)),
                                       radiance(self.context, pt.Scene([SUN])))
-
-
-if __name__ == "__main__":
-    unittest.main()

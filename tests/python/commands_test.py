@@ -1,4 +1,4 @@
-"""--help must work without optional modules, and pages must have valid commands. Argument: the project's folder."""
+"""--help must work without optional modules, and pages must have valid commands."""
 
 import pathlib
 import re
@@ -11,7 +11,7 @@ import unittest
 from pt.figures._command import joined, parser
 from pt.figures._options import Options
 
-ROOT = pathlib.Path(sys.argv.pop(1))
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 PYPROJECT = tomllib.loads((ROOT / "lib/python/pyproject.toml").read_text())["project"]
 
 
@@ -45,7 +45,3 @@ importlib.import_module({module!r}).{function}()
                                and name != "progress"})
                     found += 1
         self.assertGreater(found, 5)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -68,7 +68,3 @@ class Compare(unittest.TestCase):
             pt.compare(first, np.zeros((2, 2, 3)))
         with self.assertRaisesRegex(pt.InvalidArgumentError, "compare.rate = 2: must be in"):
             pt.compare(first, second, rate=2)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -191,7 +191,3 @@ class Libraries(unittest.TestCase):
             self.assertEqual(context.stats().device_count, 1)
         with pt.Context(suitable[0].uuid.hex, scene_kernels=False) as context:
             self.assertEqual(context.device.uuid, suitable[0].uuid)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,4 +1,4 @@
-"""Tests denoised images, with a stand-in for Open Image Denoise: denoise_test.py LIBRARY."""
+"""Tests denoised images, with a stand-in for Open Image Denoise."""
 
 import os
 import pathlib
@@ -11,7 +11,7 @@ import numpy as np
 import pt
 from pictures import CAMERA, HEIGHT, SCENE, WIDTH, cloud, settings
 
-FAKE = sys.argv.pop()
+FAKE = os.environ["OPEN_IMAGE_DENOISE"]
 POSITIONS, COLORS = cloud(80)
 
 
@@ -83,7 +83,3 @@ class Denoise(unittest.TestCase):
             pt.denoise(grey, grey, grey, grey, any_device=True)
         with self.assertRaisesRegex(pt.UnsupportedError, "pip install pyoidn"):
             pt.denoise(grey, grey, grey, grey, library_path=os.devnull)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,10 +1,9 @@
-"""Images in NumPy must have the program's bytes as pictures and in files. Arguments: the program pt, and a stand-in
-for Open Image Denoise."""
+"""Images in NumPy must have the program's bytes as pictures and in files."""
 
 import json
+import os
 import pathlib
 import subprocess
-import sys
 import tempfile
 import unittest
 from unittest import mock
@@ -15,8 +14,7 @@ from exr import read_exr_channels
 from pictures import CAMERA, SCENE, SCENE_FILE, cloud, settings
 from png import parse_png
 
-PROGRAM = sys.argv.pop(1)
-FAKE_DENOISER = sys.argv.pop(1)
+PROGRAM, FAKE_DENOISER = os.environ["PT_PROGRAM"], os.environ["OPEN_IMAGE_DENOISE"]
 
 
 def decode_png(data):
@@ -104,7 +102,3 @@ class Pictures(unittest.TestCase):
         positions, _ = cloud(3)
         few = pt.render(positions, 0.1, size=(4, 4), samples=1)
         self.assertEqual((few.error, few.error_bounds), (np.inf, (0.0, np.inf)))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,7 +1,6 @@
 import ctypes
 import pathlib
 import re
-import sys
 import unittest
 
 import numpy as np
@@ -9,7 +8,7 @@ import pt
 from pictures import WHITE, ready, settings
 from pt._library import NOT_RESULTS, PARAMETERS, checked
 
-HEADERS = pathlib.Path(sys.argv.pop(1))
+HEADERS = pathlib.Path(__file__).resolve().parents[2] / "lib/include/pt"
 
 
 class FailingLibrary:
@@ -136,7 +135,3 @@ class RealErrors(unittest.TestCase):
             pt.Context("no such device")
         with self.assertRaisesRegex(ValueError, "submit_milliseconds = 0"):
             pt.Context(submit_milliseconds=0)
-
-
-if __name__ == "__main__":
-    unittest.main()

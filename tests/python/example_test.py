@@ -1,4 +1,4 @@
-"""Tests the package's example and the programs in its pages. Argument: the project's folder."""
+"""Tests the package's example and the programs in its pages."""
 
 import contextlib
 import pathlib
@@ -10,7 +10,7 @@ import unittest
 
 import pt
 
-ROOT = pathlib.Path(sys.argv.pop(1))
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 EXAMPLES = ROOT / "lib/python/examples"
 SMALLER = (("floor=True)", "floor=True, size=(32, 24), samples=4)"), ("640, 480", "32, 24"), ("1000,", "16,"),
            ("accumulate(64)", "accumulate(4)"))
@@ -51,7 +51,3 @@ class Examples(unittest.TestCase):
 
     def test_all_examples_are_run_here(self):
         self.assertEqual([path.name for path in EXAMPLES.iterdir()], ["particles.py"])
-
-
-if __name__ == "__main__":
-    unittest.main()

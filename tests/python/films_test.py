@@ -180,7 +180,3 @@ class Plans(unittest.TestCase):
         for error in (0.0, -1.0, float("nan"), float("inf")):
             with self.assertRaisesRegex(pt.InvalidArgumentError, "target_error = .*: must be finite and > 0"):
                 film.plan(error, 64)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -157,7 +157,3 @@ class Interrupts(unittest.TestCase):
             self.context.accumulate(1, progress=fail)
         self.assertIs(sys.unraisablehook, hook)
         sys.unraisablehook = before
-
-
-if __name__ == "__main__":
-    unittest.main()

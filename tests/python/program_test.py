@@ -1,17 +1,15 @@
-"""Tests scenes that the program reads for the package. Arguments: the program pt, the folder of scenes."""
+"""Tests scenes that the program reads for the package."""
 
 import json
 import os
 import pathlib
-import sys
 import tempfile
 import unittest
 
 import numpy as np
 import pt
 
-PROGRAM, SCENES = sys.argv.pop(1), pathlib.Path(sys.argv.pop(1))
-os.environ["PT_PROGRAM"] = PROGRAM
+SCENES = pathlib.Path(__file__).resolve().parents[2] / "cli/scenes"
 os.environ.setdefault("LP_NATIVE_VECTOR_WIDTH", "256")  # equal films need equal widths
 
 from pt._program import Program  # noqa: E402
@@ -74,7 +72,3 @@ class Reading(unittest.TestCase):
             Program([str(self.written({"spheres": [{"center": [0, 0, 0]}]}))])
         with self.assertRaises(OSError):
             Program([str(self.folder / "absent.json")])
-
-
-if __name__ == "__main__":
-    unittest.main()

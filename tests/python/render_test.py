@@ -170,7 +170,3 @@ class Warnings(unittest.TestCase):
             self.assertEqual((context.warning().index, context.warning().component), (0, 1))
             context.set_scene(SCENE)
             self.assertIsNone(context.warning())
-
-
-if __name__ == "__main__":
-    unittest.main()

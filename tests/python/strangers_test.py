@@ -50,7 +50,3 @@ class Texts(unittest.TestCase):
         with self.assertRaises(pt.Error) as caught:
             pt.Context(text)
         self.assertTrue(f'"{printable(text)}"' in str(caught.exception))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -5,7 +5,6 @@ import json
 import math
 import pathlib
 import random
-import sys
 import tempfile
 import unittest
 from unittest import mock
@@ -15,7 +14,7 @@ import pt
 from pt.tachyon import _command, _lights
 from pt.tachyon._reader import parse, read
 
-DATA = pathlib.Path(sys.argv.pop(1))
+DATA = pathlib.Path(__file__).resolve().parents[2] / "tests/data/tachyon"
 # The scene is as VMD writes it. z is reversed.
 SCENE = """# as VMD has it
 Begin_Scene
@@ -344,7 +343,3 @@ class Command(unittest.TestCase):
             "texture 0", "texture 1", "light 1", "light 2", "light 3"])
         self.assertTrue(scene["materials"]["light 1"]["hidden_from_camera"])
         self.assertEqual(scene["planes"], [{"normal": [0, 2, -1], "offset": 6, "material": "texture 0"}])
-
-
-if __name__ == "__main__":
-    unittest.main()

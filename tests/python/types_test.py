@@ -1,4 +1,4 @@
-"""mypy --strict must accept the package and its example. Argument: the package's folder."""
+"""mypy --strict must accept the package and its example."""
 
 import os
 import pathlib
@@ -7,7 +7,7 @@ import sys
 import tempfile
 import unittest
 
-PACKAGE = pathlib.Path(sys.argv.pop(1))
+PACKAGE = pathlib.Path(__file__).resolve().parents[2] / "lib/python"
 
 USES = """
 import numpy as np
@@ -45,7 +45,3 @@ class Types(unittest.TestCase):
                                       '"pt.figures._figure.Figure"', 'argument "flor"',
                                       'incompatible type "str"; expected "bool"'), strict=True):
             self.assertIn(words, line)
-
-
-if __name__ == "__main__":
-    unittest.main()

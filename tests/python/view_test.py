@@ -1,5 +1,4 @@
-"""Tests access to the server of pt view, and its answers. Arguments: the program pt, and whether kernels can be
-compiled at run time (0 or 1)."""
+"""Tests access to the server of pt view, and its answers."""
 
 import asyncio
 import contextlib
@@ -23,10 +22,8 @@ import pt
 from exr import read_exr_channels
 from pictures import CAMERA, SCENE, SCENE_FILE, settings
 
-PROGRAM, HAS_COMPILER = sys.argv.pop(1), sys.argv.pop(1) == "1"
+HAS_COMPILER = os.environ["PT_HAS_COMPILER"] == "1"
 SHADERS = pathlib.Path(__file__).resolve().parents[2] / "shaders"
-os.environ["PT_PROGRAM"] = PROGRAM
-
 import aiohttp  # noqa: E402
 from pt.view import View, _server  # noqa: E402
 from pt.view._built_in import verdict_of  # noqa: E402
@@ -425,7 +422,3 @@ class Command(unittest.TestCase):
             self.assertEqual(done.returncode, 3)
             self.assertIn("lights", done.stderr)
         self.assertEqual(subprocess.run(self.command("absent.json"), capture_output=True).returncode, 6)
-
-
-if __name__ == "__main__":
-    unittest.main()
