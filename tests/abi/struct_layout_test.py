@@ -70,6 +70,16 @@ def python_layout(structs):
     return lines
 
 
+def packed(layout):
+    """Returns the table's text: a line for each struct, with its size and with the offset and size of each member."""
+    return re.sub(r"\n\w+\.", ", ", "\n".join(layout))
+
+
+def unpacked(text):
+    rows = [line.split(", ") for line in text.splitlines()]
+    return [line for struct, *members in rows for line in (struct, *(f"{struct.split()[0]}.{each}" for each in members))]
+
+
 def differences(found, table):
     return [f"{'+' if line in found else '-'} {line}" for line in sorted(set(found) ^ set(table))]
 
@@ -111,9 +121,9 @@ def check_the_package_check(headers):
 def main():
     headers = {path.name: path.read_text() for path in sorted(pathlib.Path(sys.argv[1]).glob("*.h"))}
     if len(sys.argv) == 3:
-        print("\n".join(layout_of(headers, sys.argv[2])))
+        print(packed(layout_of(headers, sys.argv[2])))
         return
-    table = pathlib.Path(sys.argv[2]).read_text().splitlines()
+    table = unpacked(pathlib.Path(sys.argv[2]).read_text())
     root, compiler = pathlib.Path(sys.argv[3]), sys.argv[4]
     check_the_check(headers, table, compiler)
     check_the_package_check(headers)
