@@ -1,7 +1,5 @@
 #include "cli/base/context.h"
 
-#include "lib/platform/printable.h"
-
 #include <pt/errors.h>
 
 #include <algorithm>
@@ -30,22 +28,7 @@ constexpr std::array<OptionName, 10> option_names{{
     {"denoise", "library", "--denoise"},
 }};
 
-std::string brackets(const std::optional<std::size_t> &index) {
-    return index ? std::string("[").append(std::to_string(*index)).append("]") : "";
-}
-
-std::optional<std::size_t> known(std::int64_t index) {
-    return index < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(index));
-}
-
 } // namespace
-
-std::string field_text(const BrokenRule &rule) {
-    std::string text = rule.subject + brackets(rule.index);
-    if (!rule.member.empty())
-        text.append(".").append(rule.member).append(brackets(rule.component));
-    return text;
-}
 
 const char *find_option(const BrokenRule &rule) {
     const auto found = std::ranges::find_if(option_names, [&rule](const OptionName &name) {
@@ -56,14 +39,7 @@ const char *find_option(const BrokenRule &rule) {
 
 std::string in_words_of_options(const BrokenRule &rule) {
     const char *option = find_option(rule);
-    return rule_text(option != nullptr ? option : field_text(rule), rule);
-}
-
-std::string rule_text(const std::string &field, const BrokenRule &rule) {
-    std::string text = field;
-    if (!rule.with.empty())
-        text.append(" ").append(rule.with);
-    return text.append(" = ").append(platform::printable(rule.value)).append(": ").append(rule.rule);
+    return rule.text(option != nullptr ? option : rule.field());
 }
 
 std::string LibraryError::in_words(const std::function<std::string(const BrokenRule &)> &words) const {
@@ -80,8 +56,7 @@ std::string LibraryError::in_words(const std::function<std::string(const BrokenR
 std::optional<BrokenRule> broken_rule(const pt_broken_rule &rule) {
     if (rule.subject == nullptr)
         return std::nullopt;
-    return BrokenRule{rule.subject, known(rule.index), rule.member, known(rule.component),
-                      rule.with,    rule.value,        rule.rule};
+    return BrokenRule{rule.subject, rule.index, rule.member, rule.component, rule.with, rule.value, rule.rule};
 }
 
 LibraryError last_error(const pt_context *context) {

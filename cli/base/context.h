@@ -5,6 +5,8 @@
 #include "cli/base/exit_code.h"
 #include "cli/base/interrupt.h"
 #include "cli/base/kernel_folder.h"
+#include "lib/base/error.h"
+#include "lib/base/struct_size.h"
 
 #include <pt/errors.h>
 #include <pt/pt.h>
@@ -22,27 +24,8 @@
 
 namespace cli {
 
-template <typename Struct>
-constexpr Struct sized() {
-    Struct value{};
-    value.struct_size = sizeof(Struct);
-    return value;
-}
-
-// An owning pt_broken_rule.
-struct BrokenRule {
-    std::string subject{};
-    std::optional<std::size_t> index{};
-    std::string member{};
-    std::optional<std::size_t> component{};
-    std::string with{};
-    std::string value{};
-    std::string rule{};
-};
-
-std::string rule_text(const std::string &field, const BrokenRule &rule);
-
-std::string field_text(const BrokenRule &rule);
+using pt::BrokenRule;
+using pt::sized;
 
 // Returns for example "--size: width"; nullptr if no option sets the field.
 const char *find_option(const BrokenRule &rule);

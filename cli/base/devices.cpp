@@ -3,9 +3,9 @@
 #include "cli/base/environment.h"
 #include "cli/base/exit_code.h"
 #include "cli/base/json.h"
-#include "cli/base/names.h"
 #include "cli/base/text.h"
 #include "cli/commands.h"
+#include "lib/scene_file/names.h"
 
 #include <algorithm>
 #include <array>
@@ -82,11 +82,11 @@ int run_devices(bool as_json) {
 } // namespace
 
 std::string kind_name(std::uint32_t kind) {
-    static constexpr ValueNames names({{"other", PT_DEVICE_OTHER},
-                                       {"integrated GPU", PT_DEVICE_INTEGRATED_GPU},
-                                       {"discrete GPU", PT_DEVICE_DISCRETE_GPU},
-                                       {"virtual GPU", PT_DEVICE_VIRTUAL_GPU},
-                                       {"CPU", PT_DEVICE_CPU}});
+    static constexpr pt::ValueNames names({{"other", PT_DEVICE_OTHER},
+                                           {"integrated GPU", PT_DEVICE_INTEGRATED_GPU},
+                                           {"discrete GPU", PT_DEVICE_DISCRETE_GPU},
+                                           {"virtual GPU", PT_DEVICE_VIRTUAL_GPU},
+                                           {"CPU", PT_DEVICE_CPU}});
     return std::string(names.name(kind));
 }
 

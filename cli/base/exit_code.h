@@ -74,6 +74,8 @@ constexpr ExitCode exit_code_of(pt_result result) {
         return ExitCode::no_device;
     case PT_ERROR_DEVICE_LOST:
         return ExitCode::device_lost;
+    case PT_ERROR_FILE:
+        return ExitCode::file;
     default:
         return ExitCode::internal;
     }

@@ -205,30 +205,4 @@ Failure unreadable(const std::string &path, const platform::InputError &error) {
     return {ExitCode::file, "cannot read " + platform::printable(path) + ": " + error.what()};
 }
 
-std::string read_text(const std::string &path) {
-    if (path != standard_stream)
-        return read_file(path, [](platform::InputFile &file) { return file.text(); });
-    try {
-        return platform::InputFile().text();
-    } catch (const platform::InputError &error) {
-        throw unreadable("standard input", error);
-    }
-}
-
-std::string_view require_text(std::string_view contents, const std::string &path) {
-    constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
-    if (const std::size_t zero = contents.find('\0'); zero != std::string_view::npos) {
-        throw Failure(ExitCode::scene,
-                      path + ":" + line_and_column(contents.substr(0, zero)) + ": a NUL byte: this is not UTF-8 text");
-    }
-    contents.remove_prefix(contents.starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
-    return contents;
-}
-
-std::string line_and_column(std::string_view before) {
-    const auto line = std::count(before.begin(), before.end(), '\n') + 1;
-    const std::size_t line_start = before.rfind('\n') + 1;
-    return std::to_string(line) + ":" + std::to_string(before.size() - line_start + 1);
-}
-
 } // namespace cli

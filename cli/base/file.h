@@ -95,13 +95,4 @@ auto read_file(const std::string &path, Read read) {
     }
 }
 
-// "-" is standard input. The text may end at a NUL byte.
-std::string read_text(const std::string &path);
-
-// Removes a byte order mark. Throws Failure(ExitCode::scene) for a NUL byte.
-std::string_view require_text(std::string_view contents, const std::string &path);
-
-// Returns the position after this text, such as "3:14". Columns are bytes.
-std::string line_and_column(std::string_view before);
-
 } // namespace cli

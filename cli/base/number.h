@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <string_view>
 #include <type_traits>
 
@@ -24,15 +23,6 @@ std::optional<Number> parse_number(std::string_view text) {
             return std::nullopt;
     }
     return number;
-}
-
-// Shortest text with the same value. Integers below 1e15 have no exponent.
-inline std::string number_text(double number) {
-    if (std::abs(number) < 1e15 && number == std::trunc(number))
-        return std::to_string(static_cast<std::int64_t>(number));
-    std::array<char, 32> text{};
-    const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), number);
-    return {text.data(), end};
 }
 
 inline std::optional<double> parse_share(std::string_view text) {

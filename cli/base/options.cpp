@@ -1,9 +1,9 @@
 #include "cli/base/options.h"
 
 #include "cli/base/exit_code.h"
-#include "cli/base/names.h"
 #include "cli/base/number.h"
 #include "cli/base/text.h"
+#include "lib/scene_file/names.h"
 
 #include <algorithm>
 #include <set>
@@ -65,7 +65,7 @@ std::vector<std::string> option_names(const CLI::App &command) {
 }
 
 std::string unknown(std::string_view kind, std::string_view name, const std::vector<std::string> &known) {
-    return unknown_name(kind, name, std::vector<std::string_view>(known.begin(), known.end()));
+    return pt::unknown_name(kind, name, std::vector<std::string_view>(known.begin(), known.end()));
 }
 
 std::string_view command_that_reads(std::string_view name) {
@@ -162,7 +162,7 @@ nlohmann::json read_value(const std::string &option, const std::string &text, co
         value = *real;
     try {
         check(rule, value, {});
-    } catch (const JsonRefusal &refusal) {
+    } catch (const pt::JsonRefusal &refusal) {
         throw CLI::ValidationError(option, refusal.what());
     }
     return value;

@@ -1,7 +1,7 @@
 // Common options. CLI11's own conversions would read "-1" as the largest unsigned number and "010" as 8.
 #pragma once
 
-#include "cli/base/json.h"
+#include "lib/scene_file/json_value.h"
 
 #include <CLI/CLI.hpp>
 
@@ -13,6 +13,11 @@
 #include <utility>
 
 namespace cli {
+
+using pt::natural_number;
+using pt::positive_number;
+using pt::seconds_rule;
+using pt::ValueRule;
 
 using Run = std::function<int()>;
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lib/platform/printable.h"
+#include "lib/scene_file/text.h"
 
 #include <cstdarg>
 #include <cstddef>
@@ -12,12 +13,8 @@
 
 namespace cli {
 
-template <typename... Parts>
-std::string concat(const Parts &...parts) {
-    std::ostringstream text;
-    (text << ... << parts);
-    return text.str();
-}
+using pt::concat;
+using pt::listed;
 
 // Like printf, truncated to 255 characters.
 // NOLINTNEXTLINE(cert-dcl50-cpp): compilers check the arguments
@@ -36,14 +33,6 @@ inline std::string percent_text(double share) {
 
 inline std::string counted(std::uint64_t count, const std::string &noun) {
     return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
-}
-
-template <typename Texts>
-std::string listed(const Texts &texts, const char *between = ", ") {
-    std::string list;
-    for (const auto &text : texts)
-        list.append(list.empty() ? "" : between).append(text);
-    return list;
 }
 
 // Removes the middle, because the subject and the rule are at the ends.

@@ -1,4 +1,3 @@
-#include "cli/base/enumerations.h"
 #include "cli/base/exit_code.h"
 #include "cli/base/file.h"
 #include "cli/base/json.h"
@@ -9,6 +8,7 @@
 #include "cli/compare/light.h"
 #include "cli/film/film.h"
 #include "cli/image/image_file.h"
+#include "lib/scene_file/enumerations.h"
 
 #include <nlohmann/json.hpp>
 
@@ -112,8 +112,8 @@ DecodedImage read_film_image(const std::string &path) {
     const std::vector<float> counts = film.read_image(PT_QUANTITY_SAMPLE_COUNT);
     for (std::size_t i = 0; i < radiance.size(); i += 3)
         image.values.insert(image.values.end(), {radiance[i], radiance[i + 1], radiance[i + 2], counts[i]});
-    image.attributes = {{"pt.sampler", std::string(samplers.name(info.sampler))},
-                        {"pt.estimator", std::string(estimators.name(info.estimator))}};
+    image.attributes = {{"pt.sampler", std::string(pt::samplers.name(info.sampler))},
+                        {"pt.estimator", std::string(pt::estimators.name(info.estimator))}};
     return image;
 }
 
@@ -141,8 +141,8 @@ TestedImage tested(const DecodedImage &image, const std::vector<float> &radiance
             radiance,
             static_cast<std::uint32_t>(fewest),
             static_cast<std::uint32_t>(most),
-            samplers.find(attribute_of(image, "pt.sampler")).value_or(0),
-            estimators.find(attribute_of(image, "pt.estimator")).value_or(0)};
+            pt::samplers.find(attribute_of(image, "pt.sampler")).value_or(0),
+            pt::estimators.find(attribute_of(image, "pt.estimator")).value_or(0)};
 }
 
 std::string size_text(const DecodedImage &image) {

@@ -2,8 +2,8 @@
 
 #include "cli/base/context.h"
 #include "cli/render/render_task.h"
-#include "cli/scene/scene_file.h"
-#include "cli/scene/sphere_columns.h"
+#include "cli/scene/scene.h"
+#include "lib/scene_file/sphere_columns.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cli/compare/light.h"
-#include "cli/scene/scene_override.h"
+#include "cli/scene/scene_options.h"
 
 #include <functional>
 #include <string>

@@ -26,7 +26,7 @@ pt_compared_image compared_image(const TestedImage &image) {
 // For example "max_samples = 20: must be ...", without the library's names of the two pictures.
 std::string rule_of(const LibraryError &error) {
     return error.in_words([](const BrokenRule &rule) {
-        return std::string(rule.subject == "second" ? "the reference: " : "") + rule_text(rule.member, rule);
+        return std::string(rule.subject == "second" ? "the reference: " : "") + rule.text(rule.member);
     });
 }
 

@@ -106,7 +106,7 @@ int run_denoise(const DenoiseOptions &options) {
     report.error = image.error;
     report.is_denoised = true;
     if (needs_tone_map(output))
-        report.tone_map = display_of(options.display).tone_map(image.radiance);
+        report.tone_map = tone_map_for(display_of(options.display), image.radiance);
     ImageWriter writer;
     const bool all_written = write_images(writer, output, report, image).size() == output.images.size();
     write_report_file(output.stats, json_text(stats_json_of(report, image)));

@@ -23,7 +23,7 @@ constexpr std::array<std::string_view, 3> digests{"scene", "camera", "kernel"};
 std::string words_of(const std::string &path, const BrokenRule &rule) {
     if (std::find(digests.begin(), digests.end(), rule.member) != digests.end())
         return path + ": was made with another " + rule.member + " (" + rule.value + ": " + rule.rule + ")";
-    const std::string text = rule_text(path + ": " + rule.member, rule);
+    const std::string text = rule.text(path + ": " + rule.member);
     return rule.member == "device" ? text + "; choose that model of device by --device, or on a CPU the width of its "
                                             "vectors by LP_NATIVE_VECTOR_WIDTH, or begin anew"
                                    : text;

@@ -177,7 +177,7 @@ double automatic_exposure(std::span<const float> radiance) {
         weights += weight;
     }
     const double stops = means.empty() ? 0.0 : std::log2(middle_grey) - sum / weights;
-    return std::clamp(std::round(100.0 * stops) / 100.0, -largest_exposure, largest_exposure);
+    return std::clamp(std::round(100.0 * stops) / 100.0, -pt::largest_exposure, pt::largest_exposure);
 }
 
 void add_tone_map(std::vector<ImageAttribute> &attributes, const ToneMap &tone_map) {

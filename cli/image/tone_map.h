@@ -1,7 +1,7 @@
 #pragma once
 
-#include "cli/base/names.h"
 #include "cli/image/image_file.h"
+#include "lib/scene_file/display.h"
 
 #include <array>
 #include <cstddef>
@@ -15,19 +15,8 @@ namespace cli {
 
 using Color = std::array<double, 3>; // linear Rec. 709
 
-enum class ToneCurve {
-    none, // clamps only
-    reinhard,
-    aces,
-    agx,
-    neutral
-};
-
-inline constexpr ValueNames<5, ToneCurve> tone_curves({{"none", ToneCurve::none},
-                                                       {"reinhard", ToneCurve::reinhard},
-                                                       {"aces", ToneCurve::aces},
-                                                       {"agx", ToneCurve::agx},
-                                                       {"neutral", ToneCurve::neutral}});
+using pt::tone_curves;
+using pt::ToneCurve;
 
 struct ToneMap {
     double exposure = 0.0; // stops
@@ -45,23 +34,16 @@ double encode_srgb(double light);
 // Returns 255 times the signal. Halves round up. There is no dither, so equal pictures give equal files.
 std::vector<std::uint8_t> map_to_bytes(std::span<const float> radiance, const ToneMap &map);
 
-inline constexpr double largest_exposure = 64.0;
-
 // Returns the stops that bring the average to middle grey, 0.18: Reinhard, Stark, Shirley, Ferwerda 2002, eqs. 1 and 2.
 // Differences: the mean of the channels replaces luminance, which would burn out blue. Pixels below 1/128 of the level
 // have less weight. The level is the mean after clipping to the mean three times, so a small lamp does not set it.
 // Rounded to hundredths, so that the printed number gives the same picture. 0 for black.
 double automatic_exposure(std::span<const float> radiance);
 
-struct Display {
-    std::optional<double> exposure; // stops; empty: automatic
-    ToneCurve curve = ToneCurve::none;
-    std::optional<double> gamma; // empty: the sRGB curve
-
-    ToneMap tone_map(std::span<const float> radiance) const {
-        return {exposure ? *exposure : automatic_exposure(radiance), curve, gamma, !exposure};
-    }
-};
+inline ToneMap tone_map_for(const pt::Display &display, std::span<const float> radiance) {
+    return {display.exposure ? *display.exposure : automatic_exposure(radiance), display.curve, display.gamma,
+            !display.exposure};
+}
 
 void add_tone_map(std::vector<ImageAttribute> &attributes, const ToneMap &tone_map);
 

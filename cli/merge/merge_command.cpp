@@ -1,6 +1,5 @@
 // `pt merge`: adds films of one picture.
 #include "cli/base/devices.h"
-#include "cli/base/enumerations.h"
 #include "cli/base/file.h"
 #include "cli/base/json.h"
 #include "cli/base/options.h"
@@ -10,6 +9,7 @@
 #include "cli/image/image_file.h"
 #include "cli/render/render_output.h"
 #include "cli/render/render_report.h"
+#include "lib/scene_file/enumerations.h"
 
 #include <nlohmann/json.hpp>
 
@@ -127,8 +127,8 @@ nlohmann::ordered_json stats_json(const MergeReport &report) {
                                  {"missing", json_of(report.missing)},
                                  {"seed", info.seed},
                                  {"max_path_length", info.max_path_length},
-                                 {"sampler", samplers.name(info.sampler)},
-                                 {"estimator", estimators.name(info.estimator)},
+                                 {"sampler", pt::samplers.name(info.sampler)},
+                                 {"estimator", pt::estimators.name(info.estimator)},
                                  {"device", info.device}};
     stats.update(error_json(report.picture.error));
     stats.update(nlohmann::ordered_json{{"rejected_samples", report.picture.stats.rejected_samples},
@@ -153,7 +153,7 @@ bool write_outputs(const FilmHandle &film, const MergeOptions &options, MergeRep
     for (const std::uint32_t quantity : output.layers)
         image.layers.emplace_back(quantity, image.part.pixel_count()).take(film.read_image(quantity), 0);
     if (needs_tone_map(output))
-        report.picture.tone_map = display_of(options.display).tone_map(image.radiance);
+        report.picture.tone_map = tone_map_for(display_of(options.display), image.radiance);
     ImageWriter writer;
     const std::size_t written = write_images(writer, output, report.picture, image).size();
     const bool has_film = output.film.empty() || write_film(output.film, film.bytes());

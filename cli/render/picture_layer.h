@@ -1,8 +1,8 @@
 #pragma once
 
 #include "cli/base/context.h"
-#include "cli/base/names.h"
 #include "cli/image/image_module.h"
+#include "lib/scene_file/names.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -19,7 +19,7 @@ struct FileLayer {
 };
 
 // OpenEXR prescribes the names Z, N and id.
-inline constexpr ValueNames<7, FileLayer> file_layers({
+inline constexpr pt::ValueNames<7, FileLayer> file_layers({
     {"mean", {PT_QUANTITY_RADIANCE, "", 3, LayerKind::color}},
     {"standard-error", {PT_QUANTITY_STANDARD_ERROR, "standard_error", 3, LayerKind::color}},
     {"sample-count", {PT_QUANTITY_SAMPLE_COUNT, "sample_count", 1, LayerKind::color}},

@@ -3,6 +3,7 @@
 #include "cli/base/interrupt.h"
 #include "cli/render/denoise.h"
 #include "cli/render/render_output.h"
+#include "lib/scene_file/animation.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -87,7 +88,7 @@ public:
 private:
     // Each frame has its own seed. Equal noise in all frames would look like a pattern on the screen.
     RenderTask task_of(const RenderOptions &options, std::uint32_t frame) const {
-        std::vector<SceneOverride> overrides = overrides_of_frame(scene_, frame);
+        std::vector<SceneOverride> overrides = pt::overrides_of_frame(scene_, frame);
         overrides.insert(overrides.end(), options.overrides.begin(), options.overrides.end());
         RenderTask task(options, parse_scene(scene_.text, scene_.path, std::move(overrides)));
         task.load();

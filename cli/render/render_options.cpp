@@ -1,6 +1,5 @@
 #include "cli/render/render_options.h"
 
-#include "cli/base/enumerations.h"
 #include "cli/base/file.h"
 #include "cli/base/options.h"
 #include "cli/base/text.h"
@@ -9,6 +8,7 @@
 #include "cli/render/picture_layer.h"
 #include "cli/render/render_command.h"
 #include "lib/platform/module.h"
+#include "lib/scene_file/enumerations.h"
 
 #include <algorithm>
 #include <array>
@@ -77,8 +77,8 @@ void add_sampling_options(CLI::App &command, RenderOptions &options) {
                "Stop at this relative error, like 0.5% or 0.005; 2 means 200% (default: take all samples)")
         ->type_name("E");
     add_name(
-        command, "--sampling", options.sampling, [](std::string_view name) { return samplings.find(name); },
-        "way to sample", samplings.names(),
+        command, "--sampling", options.sampling, [](std::string_view name) { return pt::samplings.find(name); },
+        "way to sample", pt::samplings.names(),
         "Take the same samples in all pixels (uniform), or more where they reduce the error most (adaptive, which is "
         "best with --error; default: best)");
     add_seconds(command, "--time", options.stopping.time_limit,

@@ -4,7 +4,7 @@
 #include "cli/image/image_file.h"
 #include "cli/image/image_module.h"
 #include "cli/render/stopping.h"
-#include "cli/scene/scene_override.h"
+#include "cli/scene/scene_options.h"
 
 #include <pt/pt.h>
 

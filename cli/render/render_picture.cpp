@@ -110,7 +110,8 @@ bool write_outputs(ImageWriter &writer, const Context &context, const RenderTask
 }
 
 std::optional<ToneMap> tone_map_of(const RenderTask &task, std::span<const float> radiance) {
-    return needs_tone_map(task.options.output) ? std::optional(task.scene.display.tone_map(radiance)) : std::nullopt;
+    return needs_tone_map(task.options.output) ? std::optional(tone_map_for(task.scene.display, radiance))
+                                               : std::nullopt;
 }
 
 // Albedo and normal of the second half are kept only if wanted.

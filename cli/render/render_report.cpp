@@ -1,10 +1,10 @@
 #include "cli/render/render_report.h"
 
 #include "cli/base/devices.h"
-#include "cli/base/enumerations.h"
 #include "cli/base/json.h"
 #include "cli/base/text.h"
 #include "lib/platform/process.h"
+#include "lib/scene_file/enumerations.h"
 
 #include <algorithm>
 #include <array>
@@ -18,7 +18,7 @@ namespace cli {
 namespace {
 
 template <std::size_t Count>
-std::vector<std::string_view> names_of(std::uint32_t bits, const ValueNames<Count> &all) {
+std::vector<std::string_view> names_of(std::uint32_t bits, const pt::ValueNames<Count> &all) {
     std::vector<std::string_view> names;
     for (const std::string_view name : all.names())
         if ((bits & all.find(name).value()) != 0)
@@ -116,7 +116,7 @@ nlohmann::ordered_json error_json(const pt_error_estimate &error) {
             {"relative_rmse", number_or_null(error.relative_rmse)},
             {"relative_rmse_low", number_or_null(error.relative_rmse_low)},
             {"relative_rmse_high", number_or_null(error.relative_rmse_high)},
-            {"uncertain", names_of(error.uncertain, uncertainties)}};
+            {"uncertain", names_of(error.uncertain, pt::uncertainties)}};
 }
 
 nlohmann::ordered_json stats_json(const RenderReport &report) {
@@ -133,8 +133,8 @@ nlohmann::ordered_json stats_json(const RenderReport &report) {
                                  {"first_sample", render.first_sample},
                                  {"seed", render.seed},
                                  {"max_path_length", render.max_path_length},
-                                 {"sampler", samplers.name(render.sampler)},
-                                 {"estimator", estimators.name(render.estimator)},
+                                 {"sampler", pt::samplers.name(render.sampler)},
+                                 {"estimator", pt::estimators.name(render.estimator)},
                                  {"device", device_json(report.device)},
                                  {"denoised", report.is_denoised}};
     stats.update(error_json(report.error));
@@ -151,7 +151,7 @@ nlohmann::ordered_json stats_json(const RenderReport &report) {
         {"rejected_samples", report.stats.rejected_samples},
         {"device_bytes", report.stats.device_bytes},
         {"peak_host_bytes", platform::peak_bytes()},
-        {"features", names_of(report.stats.features, features)},
+        {"features", names_of(report.stats.features, pt::features)},
         {"samples_per_second", samples_per_second(report)},
         {"tone_map", tone_map_json(report)},
         {"warnings", report.warnings}});
@@ -189,8 +189,8 @@ std::vector<ImageAttribute> image_metadata(const RenderReport &report, const Ton
     add("pt.seed", std::to_string(report.render.seed));
     add("pt.firstSample", std::to_string(report.render.first_sample));
     add("pt.maxPathLength", whole(report.render.max_path_length));
-    add("pt.sampler", std::string(samplers.name(report.render.sampler)));
-    add("pt.estimator", std::string(estimators.name(report.render.estimator)));
+    add("pt.sampler", std::string(pt::samplers.name(report.render.sampler)));
+    add("pt.estimator", std::string(pt::estimators.name(report.render.estimator)));
     add("pt.rejectedSamples", std::to_string(report.stats.rejected_samples));
     if (std::isfinite(report.error.relative_rmse))
         add("pt.relativeError", report.error.relative_rmse);

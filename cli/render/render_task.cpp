@@ -44,7 +44,7 @@ std::uint32_t image_count(const RenderOptions &options) {
 void require_scene(const Context &context, const SceneFile &scene, pt_result result) {
     if (result < 0) {
         const LibraryError error = context.last_error();
-        throw Failure(error.rules.empty() ? exit_code_of(result) : scene.blame(error), scene.explain(error));
+        throw Failure(error.rules.empty() ? exit_code_of(result) : blame(scene, error), explain(scene, error));
     }
 }
 
@@ -63,7 +63,7 @@ RenderTask::RenderTask(RenderOptions chosen, SceneFile file) :
 
 void RenderTask::load() {
     std::vector<NamedFile> sources;
-    for (const std::string &path : column_paths(scene))
+    for (const std::string &path : pt::column_paths(scene))
         sources.push_back({"a column of spheres", path});
     require_distinct_files(sources, outputs_of(options.output, options.checkpoint));
     load_columns(scene);
@@ -79,12 +79,12 @@ void require_host_memory(const RenderTask &task) {
     const std::uint64_t most = platform::most_bytes();
     if (needed <= most)
         return;
-    const ExitCode blame = task.scene.blame(BrokenRule{.subject = "render", .member = "width"});
+    const ExitCode code = blame(task.scene, BrokenRule{.subject = "render", .member = "width"});
     const std::uint32_t count = image_count(task.options);
-    throw Failure(blame, concat(blame == ExitCode::scene ? task.options.scene + ": film of " : "--size ",
-                                window_text(task.window), ": ",
-                                count == 1 ? "the image takes " : concat(count, " images take "), memory_text(needed),
-                                " of memory, more than the ", memory_text(most), " that this process can have"));
+    throw Failure(code, concat(code == ExitCode::scene ? task.options.scene + ": film of " : "--size ",
+                               window_text(task.window), ": ",
+                               count == 1 ? "the image takes " : concat(count, " images take "), memory_text(needed),
+                               " of memory, more than the ", memory_text(most), " that this process can have"));
 }
 
 std::int32_t call_listener(void *user, double share) {
@@ -94,7 +94,7 @@ std::int32_t call_listener(void *user, double share) {
 void require(const Context &context, const RenderTask &task, pt_result result) {
     const LibraryError error = result < 0 ? context.last_error() : LibraryError{};
     if (!error.rules.empty())
-        throw Failure(task.scene.blame(error), task.scene.explain(error));
+        throw Failure(blame(task.scene, error), explain(task.scene, error));
     context.require(result);
 }
 

@@ -2,7 +2,7 @@
 
 #include "cli/base/context.h"
 #include "cli/render/render_options.h"
-#include "cli/scene/scene_file.h"
+#include "cli/scene/scene.h"
 
 #include <functional>
 

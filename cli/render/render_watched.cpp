@@ -81,7 +81,7 @@ private:
         RenderTimes times;
         check_names(options_);
         RenderTask task(options_, read_scene_file(options_.scene, options_.overrides));
-        const std::vector<std::string> columns = column_paths(task.scene);
+        const std::vector<std::string> columns = pt::column_paths(task.scene);
         sources_.follow({columns.begin(), columns.end()});
         task.load();
         check_outputs(task);

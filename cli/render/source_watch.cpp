@@ -1,8 +1,7 @@
 #include "cli/render/source_watch.h"
 
-#include "cli/base/exit_code.h"
-#include "cli/base/file.h"
 #include "lib/platform/file.h"
+#include "lib/platform/input_file.h"
 
 #include <algorithm>
 #include <iterator>
@@ -46,8 +45,8 @@ std::optional<std::string> SourceWatch::contents_of(const fs::path &path) {
     Kept &kept = kept_[path];
     if (!state || is_fresh(path) || state != kept.state) {
         try {
-            kept = state ? Kept{state, read_text(path.string())} : Kept{};
-        } catch (const Failure &) {
+            kept = state ? Kept{state, platform::InputFile(path).text()} : Kept{};
+        } catch (const platform::InputError &) {
             kept = {};
         }
     }

@@ -62,7 +62,7 @@ std::optional<std::string> brightening_materials(const SceneFile &scene) {
         if (count == 0)
             hint = byte_color_text(scene.materials[i]);
         if (++count <= most_names)
-            names.push_back(path_text({{"materials"}, {scene.material_names[i]}}));
+            names.push_back(pt::path_text({{"materials"}, {scene.material_names[i]}}));
         largest = std::max(largest, share);
     }
     if (count == 0)
@@ -107,7 +107,7 @@ std::vector<std::string> input_warnings(const SceneFile &scene, const std::optio
     if (const auto materials = brightening_materials(scene))
         warnings.push_back(scene.path + ": " + *materials);
     if (of_library)
-        warnings.push_back(scene.explain(*of_library));
+        warnings.push_back(explain(scene, *of_library));
     if (target_error >= 1.0) {
         warnings.push_back("--error: the target is " + percent_text(target_error) +
                            "; two percent are written 2% or 0.02");

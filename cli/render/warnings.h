@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cli/render/render_report.h"
-#include "cli/scene/scene_file.h"
+#include "cli/scene/scene.h"
 
 #include <optional>
 #include <span>

@@ -1,7 +1,7 @@
 // Writes a scene for other programs, so that only `pt` reads scene files.
 #pragma once
 
-#include "cli/scene/scene_file.h"
+#include "cli/scene/scene.h"
 
 #include <iosfwd>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cli/scene/scene_file.h"
+#include "cli/scene/scene.h"
 
 #include <pt/devices.h>
 

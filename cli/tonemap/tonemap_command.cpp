@@ -7,7 +7,7 @@
 #include "cli/image/image_file.h"
 #include "cli/image/tone_map.h"
 #include "cli/render/render_options.h"
-#include "cli/scene/scene_file.h"
+#include "cli/scene/scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -97,7 +97,7 @@ int run_tonemap(const TonemapOptions &options) {
     const ImageTarget target = image_target(options.output, options.format);
     check_image_target(target, window);
 
-    const ToneMap tone_map = display_of(options.display).tone_map(radiance);
+    const ToneMap tone_map = tone_map_for(display_of(options.display), radiance);
     const std::vector<ImageAttribute> attributes = attributes_of(image, tone_map);
     ImageWriter writer;
     write_display_image(writer, target, {.window = window, .attributes = attributes}, radiance, tone_map,

@@ -34,17 +34,17 @@ constexpr std::pair<pt_result, const char *> names[] = {
     {PT_ERROR_SHADER, "PT_ERROR_SHADER"},
     {PT_ERROR_INTERNAL, "PT_ERROR_INTERNAL"},
     {PT_ERROR_INCOMPATIBLE, "PT_ERROR_INCOMPATIBLE"},
+    {PT_ERROR_FILE, "PT_ERROR_FILE"},
 };
 
 } // namespace
 
-std::string BrokenRule::text() const {
-    std::string field = subject + brackets(index);
-    if (!member.empty())
-        field += '.' + member + brackets(component);
-    if (!with.empty())
-        field += ' ' + with;
-    return field + " = " + value + ": " + rule;
+std::string BrokenRule::field() const {
+    return subject + brackets(index) + (member.empty() ? "" : '.' + member + brackets(component));
+}
+
+std::string BrokenRule::text(const std::string &name_of_field) const {
+    return name_of_field + (with.empty() ? "" : ' ' + with) + " = " + value + ": " + rule;
 }
 
 void Violations::add(BrokenRule rule) {

@@ -13,16 +13,20 @@
 namespace pt {
 
 struct BrokenRule {
-    std::string subject;
+    std::string subject = {};
     std::int64_t index = -1;
     std::string member = {};
     std::int32_t component = -1;
     std::string with = {};
-    std::string value;
-    std::string rule;
+    std::string value = {};
+    std::string rule = {};
+
+    // "spheres[3].center[0]"
+    std::string field() const;
 
     // "spheres[3].center[0] = nan: must be finite", "render.width * height = 0: ..."
-    std::string text() const;
+    std::string text() const { return text(field()); }
+    std::string text(const std::string &name_of_field) const;
 };
 
 // The rules that one call broke. There may be millions: the first ones are kept, all are counted.

@@ -11,6 +11,13 @@
 
 namespace pt {
 
+template <typename Struct>
+constexpr Struct sized() {
+    Struct value{};
+    value.struct_size = sizeof(Struct);
+    return value;
+}
+
 // A size above 65536 shows an uninitialised field: structs have hundreds of bytes at most.
 constexpr bool is_struct_size(std::uint32_t size) {
     return size >= sizeof size && size <= 65536;

@@ -1,6 +1,6 @@
 #include "tests/analytic/scenes.h"
 
-#include "cli/scene/scene_file.h"
+#include "cli/scene/scene.h"
 
 #include <fstream>
 #include <sstream>

@@ -1,6 +1,6 @@
 // Compares films of the shipped scenes with tests/data/film_checksums.txt. Only changes of radiance may change the
 // checksums.
-#include "cli/scene/scene_file.h"
+#include "cli/scene/scene.h"
 #include "lib/base/digest.h"
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"

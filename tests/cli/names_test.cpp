@@ -1,4 +1,4 @@
-#include "cli/base/enumerations.h"
+#include "lib/scene_file/enumerations.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 namespace {
 
 template <std::size_t Count>
-void expect_round_trip(const cli::ValueNames<Count> &methods, std::uint32_t last) {
+void expect_round_trip(const pt::ValueNames<Count> &methods, std::uint32_t last) {
     EXPECT_EQ(methods.names().size(), last + 1U); // pt.h counts from 0
     for (std::uint32_t value = 0; value <= last; ++value)
         EXPECT_EQ(methods.find(methods.name(value)), value);
@@ -17,39 +17,39 @@ void expect_round_trip(const cli::ValueNames<Count> &methods, std::uint32_t last
 }
 
 TEST(ValueNames, EveryMethodHasAName) {
-    expect_round_trip(cli::samplers, PT_SAMPLER_SOBOL);
-    expect_round_trip(cli::estimators, PT_ESTIMATOR_MIS);
-    EXPECT_EQ(cli::estimators.find("light"), static_cast<std::uint32_t>(PT_ESTIMATOR_LIGHT));
+    expect_round_trip(pt::samplers, PT_SAMPLER_SOBOL);
+    expect_round_trip(pt::estimators, PT_ESTIMATOR_MIS);
+    EXPECT_EQ(pt::estimators.find("light"), static_cast<std::uint32_t>(PT_ESTIMATOR_LIGHT));
 }
 
 constexpr std::array<std::string_view, 4> known{"center", "radius", "material", "motion"};
 
 TEST(Suggestion, FindsCommonMisspellings) {
-    EXPECT_EQ(cli::nearest_name("raduis", known), "radius"); // a swap
-    EXPECT_EQ(cli::nearest_name("centre", known), "center");
-    EXPECT_EQ(cli::nearest_name("materials", known), "material"); // one too many
-    EXPECT_EQ(cli::nearest_name("moton", known), "motion");       // one too few
-    EXPECT_EQ(cli::nearest_name("Radius", known), "radius");      // case
-    EXPECT_EQ(cli::nearest_name("rabius", known), "radius");      // another letter
+    EXPECT_EQ(pt::nearest_name("raduis", known), "radius"); // a swap
+    EXPECT_EQ(pt::nearest_name("centre", known), "center");
+    EXPECT_EQ(pt::nearest_name("materials", known), "material"); // one too many
+    EXPECT_EQ(pt::nearest_name("moton", known), "motion");       // one too few
+    EXPECT_EQ(pt::nearest_name("Radius", known), "radius");      // case
+    EXPECT_EQ(pt::nearest_name("rabius", known), "radius");      // another letter
 }
 
 TEST(Suggestion, PrefersTheNearest) {
     constexpr std::array<std::string_view, 3> names{"side wall", "side walls", "side well"};
-    EXPECT_EQ(cli::nearest_name("side wals", names), "side wall");
-    EXPECT_EQ(cli::nearest_name("side wallss", names), "side walls");
+    EXPECT_EQ(pt::nearest_name("side wals", names), "side wall");
+    EXPECT_EQ(pt::nearest_name("side wallss", names), "side walls");
 }
 
 TEST(Suggestion, IsSilentAboutStrangers) {
-    EXPECT_EQ(cli::nearest_name("emission", known), "");
-    EXPECT_EQ(cli::nearest_name("x", known), "");
-    EXPECT_EQ(cli::nearest_name("", known), "");
-    EXPECT_EQ(cli::nearest_name("radius", {}), "");
+    EXPECT_EQ(pt::nearest_name("emission", known), "");
+    EXPECT_EQ(pt::nearest_name("x", known), "");
+    EXPECT_EQ(pt::nearest_name("", known), "");
+    EXPECT_EQ(pt::nearest_name("radius", {}), "");
 }
 
 TEST(Suggestion, Message) {
-    EXPECT_EQ(cli::unknown_name("key", "raduis", known), "unknown key \"raduis\", did you mean \"radius\"?");
-    EXPECT_EQ(cli::unknown_name("key", "x", known), "unknown key \"x\", known: center, radius, material, motion");
-    EXPECT_EQ(cli::unknown_name("material", "x", {}), "unknown material \"x\"");
+    EXPECT_EQ(pt::unknown_name("key", "raduis", known), "unknown key \"raduis\", did you mean \"radius\"?");
+    EXPECT_EQ(pt::unknown_name("key", "x", known), "unknown key \"x\", known: center, radius, material, motion");
+    EXPECT_EQ(pt::unknown_name("material", "x", {}), "unknown material \"x\"");
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cli/base/exit_code.h"
+#include "lib/base/error.h"
 
 #include <string>
 
@@ -15,6 +16,8 @@ Refusal refusal_of(const Call &call) {
         call();
     } catch (const cli::Failure &failure) {
         return {failure.code(), failure.what()};
+    } catch (const pt::Error &error) {
+        return {cli::exit_code_of(error.code()), error.what()};
     }
     return {};
 }

@@ -18,8 +18,8 @@ constexpr const char *full_scene = R"({
   "film": { "width": 10, "height": 20, "exposure": -3, "tonemap": "agx", "gamma": 2.2 },
   "render": { "max_path_length": 3, "spp": 5, "seed": 7, "sampler": "random", "estimator": "uniform" } })";
 
-cli::SceneOverride option(const char *name, cli::JsonPath path, nlohmann::json value) {
-    return {std::move(path), std::move(value), name, ExitCode::usage, true};
+cli::SceneOverride option(const char *name, pt::JsonPath path, nlohmann::json value) {
+    return {std::move(path), std::move(value), name, PT_ERROR_INVALID_ARGUMENT, true};
 }
 
 RenderOptions full_options() {
@@ -85,13 +85,13 @@ TEST(RenderTask, SamplesEndWithTheLastIndex) {
 }
 
 TEST(RenderTask, WhatTheLibraryRefusesIsNamedAsItWasGiven) {
-    constexpr std::nullopt_t none = std::nullopt;
+    constexpr int none = -1;
     const cli::BrokenRule size{"render", none, "width", none, "", "0", "must be >= 1"};
     const cli::BrokenRule length{"render", none, "max_path_length", none, "", "2000", "must be <= 1024"};
     const auto explained = [&](const RenderOptions &options, std::vector<cli::BrokenRule> rules, const char *scene) {
         const RenderTask task = task_of(options, scene);
         const cli::LibraryError error{"a message", std::move(rules)};
-        return std::pair(task.scene.blame(error), task.scene.explain(error));
+        return std::pair(blame(task.scene, error), explain(task.scene, error));
     };
     EXPECT_EQ(explained({}, {size}, full_scene),
               std::pair(ExitCode::scene, std::string("s.json:2: film.width = 0: must be >= 1")));

@@ -1,4 +1,4 @@
-#include "cli/scene/scene_file.h"
+#include "cli/scene/scene.h"
 
 #include "tests/cli/refusal_of.h"
 
@@ -297,7 +297,7 @@ TEST(SceneFile, ZerosAreNotDefaults) {
 }
 
 using cli::BrokenRule;
-constexpr std::nullopt_t none = std::nullopt;
+constexpr int none = -1;
 
 TEST(SceneFile, ExplainsWhatTheLibraryRefuses) {
     const SceneFile scene = parse_scene(small, "s.json");
@@ -319,20 +319,20 @@ TEST(SceneFile, ExplainsWhatTheLibraryRefuses) {
     EXPECT_EQ(explained({"accumulate", none, "sample_count", none, "", "0", "y"}), "s.json:11: render.spp = 0: y");
     EXPECT_EQ(explained({"render", none, "estimator", none, "", "9", "x"}), "s.json:12: render.estimator = 9: x");
     EXPECT_EQ(explained({"materials", 99, "x", none, "", "0", "y"}), "s.json:6: materials[99].x = 0: y");
-    EXPECT_EQ(explained({"create", none, "device", none, "", "7", "y"}), "--device = 7: y");
+    EXPECT_EQ(explained({"create", none, "device", none, "", "7", "y"}), "s.json: create.device = 7: y");
     EXPECT_EQ(explained({"scene", none, "", none, "", "NULL", "y"}), "s.json: scene = NULL: y");
 }
 
 TEST(SceneFile, ExplainsWholeErrors) {
     const SceneFile scene = parse_scene(small, "s.json");
-    EXPECT_EQ(scene.explain(cli::LibraryError{"out of everything", {}}), "s.json: out of everything");
+    EXPECT_EQ(explain(scene, cli::LibraryError{"out of everything", {}}), "s.json: out of everything");
     const cli::LibraryError error{"not read",
                                   {{"spheres", 3, "radius", none, "", "-1", "must be > 0"},
                                    {"materials", 2, "diffuse", 0, "", "-1", "must be >= 0"}},
                                   3};
-    EXPECT_EQ(scene.explain(error), "s.json:3: spheres[3].radius = -1: must be > 0\n"
-                                    "s.json:7: materials.a.diffuse[0] = -1: must be >= 0\n"
-                                    "... and 3 more");
+    EXPECT_EQ(explain(scene, error), "s.json:3: spheres[3].radius = -1: must be > 0\n"
+                                     "s.json:7: materials.a.diffuse[0] = -1: must be >= 0\n"
+                                     "... and 3 more");
 }
 
 TEST(SceneFile, OnlyTextIsRead) {

@@ -1,8 +1,8 @@
 #include "cli/base/text.h"
 #include "cli/render/render_options.h"
-#include "cli/scene/scene_file.h"
-#include "cli/scene/scene_keys.h"
-#include "cli/scene/scene_override.h"
+#include "cli/scene/scene.h"
+#include "cli/scene/scene_options.h"
+#include "lib/scene_file/scene_keys.h"
 #include "tests/cli/refusal_of.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,8 @@ constexpr const char *text = R"({
 
 SceneFile changed(const std::vector<std::string> &settings, const char *scene = text) {
     std::vector<cli::SceneOverride> overrides;
-    std::transform(settings.begin(), settings.end(), std::back_inserter(overrides), &cli::parse_override);
+    std::transform(settings.begin(), settings.end(), std::back_inserter(overrides),
+                   [](const std::string &setting) { return pt::parse_override(setting, "--set "); });
     return cli::parse_scene(scene, "s.json", overrides);
 }
 
@@ -120,8 +121,8 @@ TEST(SceneOverride, MistakesOfTheFileStayMistakes) {
 
 TEST(SceneOverride, EveryKeyWithAnOptionIsCheckedInTheFileToo) {
     int count = 0;
-    for (const cli::SceneSection &section : cli::scene_sections()) {
-        for (const cli::SceneKey &key : section.keys) {
+    for (const pt::SceneSection &section : pt::scene_sections()) {
+        for (const pt::SceneKey &key : section.keys) {
             if (key.option.empty())
                 continue;
             ++count;
@@ -138,12 +139,12 @@ TEST(SceneOverride, EveryKeyWithAnOptionIsCheckedInTheFileToo) {
 
 TEST(SceneOverride, TheLibrarysRulesLeadBackToIt) {
     const SceneFile scene = changed({"spheres[1].radius=-1"});
-    const cli::BrokenRule of_option{"spheres", 1, "radius", std::nullopt, "", "-1", "must be > 0"};
-    const cli::BrokenRule of_file{"spheres", 0, "radius", std::nullopt, "", "-1", "must be > 0"};
-    EXPECT_EQ(scene.explain(of_option), "--set spheres[1].radius=-1: spheres[1].radius = -1: must be > 0");
-    EXPECT_EQ(scene.blame(of_option), cli::ExitCode::usage);
-    EXPECT_EQ(scene.explain(of_file), "s.json:3: spheres[0].radius = -1: must be > 0");
-    EXPECT_EQ(scene.blame(of_file), cli::ExitCode::scene);
+    const cli::BrokenRule of_option{"spheres", 1, "radius", -1, "", "-1", "must be > 0"};
+    const cli::BrokenRule of_file{"spheres", 0, "radius", -1, "", "-1", "must be > 0"};
+    EXPECT_EQ(cli::explain(scene, of_option), "--set spheres[1].radius=-1: spheres[1].radius = -1: must be > 0");
+    EXPECT_EQ(cli::blame(scene, of_option), cli::ExitCode::usage);
+    EXPECT_EQ(cli::explain(scene, of_file), "s.json:3: spheres[0].radius = -1: must be > 0");
+    EXPECT_EQ(cli::blame(scene, of_file), cli::ExitCode::scene);
 }
 
 using cli::parse_scene;
@@ -169,7 +170,7 @@ Numbers list(const double (&values)[Count]) {
 TEST(Animation, ValuesAreOnStraightLinesBetweenKeyFrames) {
     const SceneFile scene = parse_scene(moving, "s.json");
     ASSERT_EQ(scene.animation.size(), 3U);
-    const cli::AnimatedValue &camera = scene.animation[0];
+    const pt::AnimatedValue &camera = scene.animation[0];
     EXPECT_EQ(camera.at(12.0), (Numbers{2.0, 4.0, 0.0}));
     EXPECT_EQ(camera.at(12.5), (Numbers{2.5, 5.0, 0.0}));
     for (const double time : {0.0, 9.9, 10.0})
@@ -182,7 +183,7 @@ TEST(Animation, ValuesAreOnStraightLinesBetweenKeyFrames) {
 TEST(Animation, SpheresMoveWithinAFrame) {
     const SceneFile scene = parse_scene(moving, "s.json");
     const auto sphere = [&](std::uint32_t frame) {
-        return parse_scene(moving, "s.json", cli::overrides_of_frame(scene, frame)).spheres.at(0);
+        return parse_scene(moving, "s.json", pt::overrides_of_frame(scene, frame)).spheres.at(0);
     };
     EXPECT_EQ(list(sphere(9).center), (Numbers{0, 0, 0}));
     EXPECT_EQ(list(sphere(9).motion), (Numbers{0, 0, 0})); // not the file's
@@ -223,7 +224,7 @@ TEST(Animation, MistakesAreRefused) {
 
 TEST(Animation, MistakesOfAFrameNameIt) {
     const SceneFile scene = parse_scene(R"({"animation": {"spheres[3].radius": [[0, 1]]}})", "s.json");
-    const Refusal refused = refusal_of([&] { parse_scene("{}", "s.json", cli::overrides_of_frame(scene, 7)); });
+    const Refusal refused = refusal_of([&] { parse_scene("{}", "s.json", pt::overrides_of_frame(scene, 7)); });
     EXPECT_EQ(refused.code, cli::ExitCode::scene);
     EXPECT_EQ(refused.message, "s.json: animation[\"spheres[3].radius\"] in frame 7: the scene has no spheres[3]");
 }

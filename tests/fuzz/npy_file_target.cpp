@@ -2,8 +2,8 @@
 #include "tests/fuzz/mutation.h"
 #include "tests/fuzz/require.h"
 
-#include "cli/base/exit_code.h"
-#include "cli/scene/sphere_columns.h"
+#include "lib/base/error.h"
+#include "lib/scene_file/sphere_columns.h"
 
 #include <pt/pt.h>
 
@@ -32,7 +32,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
     try {
         const MemoryFile memory(data, size);
         platform::InputFile file(memory.path());
-        const cli::NpyArray array = cli::read_npy(file, "a.npy");
+        const pt::NpyArray array = pt::read_npy(file, "a.npy");
         const std::size_t number_bytes = array.type == PT_TYPE_FLOAT64 ? 8 : array.type == PT_TYPE_FLOAT32 ? 4 : 1;
         fuzz::require(number_bytes > 1 || array.type == PT_TYPE_SRGB8, "columns have types that spheres take");
         fuzz::require(array.row_length <= 3, "rows are no longer than positions");
@@ -40,9 +40,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
         fuzz::require(array.row_bytes() == row_bytes && array.file.size() == size &&
                           (size - array.first) / row_bytes == array.row_count && (size - array.first) % row_bytes == 0,
                       "the numbers are the last bytes of the file");
-    } catch (const cli::Failure &failure) {
-        const std::string_view words = failure.what();
-        fuzz::require(failure.code() == cli::ExitCode::scene, "what is refused is the scene's fault");
+    } catch (const pt::Error &error) {
+        const std::string_view words = error.what();
+        fuzz::require(error.code() == PT_ERROR_INVALID_SCENE, "what is refused is the scene's fault");
         fuzz::require(words.starts_with("a.npy: ") && words.size() < longest_message,
                       "messages are short and name the file");
     }

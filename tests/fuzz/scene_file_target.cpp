@@ -1,8 +1,7 @@
 #include "tests/fuzz/examine.h"
 #include "tests/fuzz/mutation.h"
 
-#include "cli/base/exit_code.h"
-#include "cli/scene/scene_file.h"
+#include "lib/scene_file/scene_file.h"
 
 #include <algorithm>
 #include <random>
@@ -12,7 +11,7 @@ namespace {
 
 constexpr const char *path = "scene.json";
 
-void examine_scene(const cli::SceneFile &scene, std::span<const std::uint8_t> bytes) {
+void examine_scene(const pt::SceneFile &scene, std::span<const std::uint8_t> bytes) {
     fuzz::Input input;
     input.materials = scene.materials;
     input.spheres = scene.spheres;
@@ -64,13 +63,14 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t *data, std::size_t s
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
     const std::string text(data, data + size);
     try {
-        const cli::SceneFile scene = cli::parse_scene(text, path);
-        fuzz::require(scene.explain(cli::BrokenRule{text, size, text, size, text, text, text}).starts_with(path),
+        const pt::SceneFile scene = pt::scene_of_text(text, path);
+        const auto index = static_cast<std::int32_t>(size);
+        fuzz::require(scene.explain({text, index, text, index, text, text, text}).starts_with(path),
                       "messages are led back to the file");
         examine_scene(scene, {data, size});
-    } catch (const cli::Failure &failure) {
-        fuzz::require(failure.code() == cli::ExitCode::scene, "what is refused is the scene file's fault");
-        fuzz::require(std::string_view(failure.what()).starts_with(path), "messages name the file");
+    } catch (const pt::Error &error) {
+        fuzz::require(error.code() == PT_ERROR_INVALID_SCENE, "what is refused is the scene file's fault");
+        fuzz::require(std::string_view(error.what()).starts_with(path), "messages name the file");
     }
     return 0;
 }

@@ -45,7 +45,8 @@ TEST(ResultName, IsThatOfTheHeader) {
     EXPECT_STREQ(pt::result_name(PT_ERROR_SHADER), "PT_ERROR_SHADER");
     EXPECT_STREQ(pt::result_name(PT_ERROR_INTERNAL), "PT_ERROR_INTERNAL");
     EXPECT_STREQ(pt::result_name(PT_ERROR_INCOMPATIBLE), "PT_ERROR_INCOMPATIBLE");
-    EXPECT_STREQ(pt::result_name(-12), "unknown result");
+    EXPECT_STREQ(pt::result_name(PT_ERROR_FILE), "PT_ERROR_FILE");
+    EXPECT_STREQ(pt::result_name(-13), "unknown result");
     EXPECT_STREQ(pt::result_name(4), "unknown result");
 }
 

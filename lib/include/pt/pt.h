@@ -68,7 +68,8 @@ enum {
     PT_ERROR_DEVICE_LOST = -8,          /**< the device or its driver gave up; the context can only be destroyed */
     PT_ERROR_SHADER = -9,               /**< the driver refused to build the kernel, or its GLSL does not compile */
     PT_ERROR_INTERNAL = -10,            /**< a bug in this library or in the driver */
-    PT_ERROR_INCOMPATIBLE = -11         /**< bytes that are no film of this picture (pt/film.h) */
+    PT_ERROR_INCOMPATIBLE = -11,        /**< bytes that are no film of this picture (pt/film.h) */
+    PT_ERROR_FILE = -12                 /**< a file cannot be read (pt/scene_file.h) */
 };
 
 /** A renderer on one or several devices. The caller owns it from pt_create to pt_destroy. */

@@ -23,7 +23,7 @@ from pt._denoise import denoise
 from pt._enums import (NO_OBJECT, DeviceKind, Estimator, Feature, Format, Light, LogLevel, Projection, Quantity, Result, Sampler,
                        Sampling,
                        Uncertain)
-from pt._errors import (BrokenRule, DeviceLostError, Error, IncompatibleError, InternalError, InvalidArgumentError,
+from pt._errors import (BrokenRule, DeviceLostError, Error, FileError, IncompatibleError, InternalError, InvalidArgumentError,
                         InvalidSceneError, InvalidStateError, NoDeviceError, OutOfDeviceMemoryError,
                         OutOfHostMemoryError, ShaderError, UnsupportedError)
 from pt._film import Film, FilmInfo, FilmTile
@@ -38,7 +38,7 @@ if TYPE_CHECKING:  # Figures import slowly.
 
 __all__ = [
     "BrokenRule", "Camera", "Comparison", "Context", "DeviceInfo", "DeviceKind", "DeviceLostError", "Error", "Estimator", "Feature", "Figure",
-    "Film", "FilmInfo", "FilmTile", "Format", "Image", "IncompatibleError", "InternalError", "InvalidArgumentError",
+    "FileError", "Film", "FilmInfo", "FilmTile", "Format", "Image", "IncompatibleError", "InternalError", "InvalidArgumentError",
     "InvalidSceneError", "InvalidStateError", "Light", "Log", "LogLevel", "Material", "NO_OBJECT", "NoDeviceError",
     "OutOfDeviceMemoryError", "OutOfHostMemoryError", "Plane", "Progress", "Projection", "Quantity", "Region", "RenderSettings",
     "Result", "Sampler", "Sampling", "Scene", "ShaderError", "Sphere", "SphereArray", "Stats", "Uncertain", "UnsupportedError",

@@ -14,7 +14,8 @@ INTERNAL, USAGE, SCENE, NO_DEVICE, LOST, FILES, TARGET_MISSED, SIGNAL = 1, 2, 3,
 CODE_OF_RESULT = {Result.ERROR_INVALID_ARGUMENT: USAGE, Result.ERROR_INCOMPATIBLE: USAGE,
                   Result.ERROR_INVALID_SCENE: SCENE, Result.ERROR_UNSUPPORTED: NO_DEVICE,
                   Result.ERROR_NO_DEVICE: NO_DEVICE, Result.ERROR_OUT_OF_DEVICE_MEMORY: NO_DEVICE,
-                  Result.ERROR_SHADER: NO_DEVICE, Result.ERROR_DEVICE_LOST: LOST}
+                  Result.ERROR_SHADER: NO_DEVICE, Result.ERROR_DEVICE_LOST: LOST,
+                  Result.ERROR_FILE: FILES}
 
 
 def at_least(least: float, kind: type) -> Callable[[str], Any]:

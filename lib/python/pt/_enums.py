@@ -156,3 +156,4 @@ class Result(enum.IntEnum):
     ERROR_SHADER = -9  # the driver refused to build the kernel, or its GLSL does not compile
     ERROR_INTERNAL = -10  # a bug in this library or in the driver
     ERROR_INCOMPATIBLE = -11  # bytes that are no film of this picture (pt/film.h)
+    ERROR_FILE = -12  # a file cannot be read (pt/scene_file.h)

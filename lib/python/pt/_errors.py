@@ -90,9 +90,15 @@ class IncompatibleError(Error, ValueError):
     result = Result.ERROR_INCOMPATIBLE
 
 
+class FileError(Error, OSError):
+    """A file cannot be read."""
+
+    result = Result.ERROR_FILE
+
+
 ERROR_OF_RESULT: Final[dict[int, type[Error]]] = {
     error.result: error
     for error in (InvalidArgumentError, InvalidSceneError, InvalidStateError, UnsupportedError, NoDeviceError,
                   OutOfHostMemoryError, OutOfDeviceMemoryError, DeviceLostError, ShaderError, InternalError,
-                  IncompatibleError)
+                  IncompatibleError, FileError)
 }

@@ -1,13 +1,15 @@
-#include "cli/base/json.h"
+#include "lib/scene_file/json_value.h"
 
-#include "cli/base/names.h"
-#include "cli/base/number.h"
-#include "cli/base/text.h"
+#include "lib/scene_file/names.h"
+#include "lib/scene_file/text.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <charconv>
+#include <cmath>
 
-namespace cli {
+namespace pt {
 namespace {
 
 using nlohmann::json;
@@ -25,8 +27,10 @@ std::optional<JsonStep> parse_bracketed(std::string_view text) {
         const json key = json::parse(text, nullptr, false);
         return key.is_string() ? std::optional(JsonStep{key.get<std::string>(), 0, false}) : std::nullopt;
     }
-    const auto index = parse_number<std::size_t>(text);
-    return index ? std::optional(JsonStep{{}, *index, true}) : std::nullopt;
+    std::size_t index = 0;
+    const char *const all = text.data() + text.size();
+    const auto [end, error] = std::from_chars(text.data(), all, index);
+    return error == std::errc{} && end == all ? std::optional(JsonStep{{}, index, true}) : std::nullopt;
 }
 
 // Empty without a closing bracket.
@@ -39,6 +43,15 @@ std::optional<std::size_t> bracketed_length(std::string_view text) {
         i += text[i] == '\\' && is_quoted ? 1 : 0;
     }
     return std::nullopt;
+}
+
+// Shortest exact text; whole numbers below 1e15 without exponent.
+std::string number_text(double number) {
+    if (std::abs(number) < 1e15 && number == std::trunc(number))
+        return std::to_string(static_cast<std::int64_t>(number));
+    std::array<char, 32> text{};
+    const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), number);
+    return {text.data(), end};
 }
 
 using Form = ValueRule::Form;
@@ -226,4 +239,4 @@ void refuse_unknown_key(const JsonPlace &object, std::string_view key, std::span
     throw refusal;
 }
 
-} // namespace cli
+} // namespace pt

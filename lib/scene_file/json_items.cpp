@@ -1,7 +1,6 @@
-#include "cli/scene/json_items.h"
+#include "lib/scene_file/json_items.h"
 
-#include "cli/base/exit_code.h"
-#include "cli/base/file.h"
+#include "lib/base/error.h"
 
 #include <algorithm>
 #include <exception>
@@ -10,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace cli {
+namespace pt {
 namespace {
 
 using nlohmann::json;
@@ -189,32 +188,49 @@ private:
     std::optional<std::size_t> line_;
 };
 
+// "3:14": the position after this text, from 1; columns are bytes.
+std::string line_and_column(std::string_view before) {
+    const auto line = std::count(before.begin(), before.end(), '\n') + 1;
+    const std::size_t line_start = before.rfind('\n') + 1;
+    return std::to_string(line) + ":" + std::to_string(before.size() - line_start + 1);
+}
+
 // Rewords the parser's message. error.byte includes the wrong character.
-Failure failure_of(const json::parse_error &error, const ItemParser &parser, std::string_view text,
-                   const std::string &file_name) {
+Error error_of(const json::parse_error &error, const ItemParser &parser, std::string_view text,
+               const std::string &file_name) {
     if (const auto comma = parser.missing_comma(text, error.byte))
-        return {ExitCode::scene,
+        return {PT_ERROR_INVALID_SCENE,
                 file_name + ":" + line_and_column(text.substr(0, *comma)) + ": syntax error: a comma is missing"};
     const std::string_view before =
         text.substr(0, std::min(error.byte, text.size() + 1) - std::min<std::size_t>(error.byte, 1));
     const std::string_view what = error.what();
     const std::size_t reason = what.find(": ", std::min(what.find("column "), what.size()));
-    return {ExitCode::scene, file_name + ":" + line_and_column(before) + ": " +
-                                 std::string(reason == std::string_view::npos ? what : what.substr(reason + 2))};
+    return {PT_ERROR_INVALID_SCENE, file_name + ":" + line_and_column(before) + ": " +
+                                        std::string(reason == std::string_view::npos ? what : what.substr(reason + 2))};
 }
 
 } // namespace
 
 void parse_json_items(std::string_view text, const std::string &file_name, JsonItemHandler &handler) {
     if (text.empty()) // versions of nlohmann-json differ here
-        throw Failure(ExitCode::scene, file_name + ":1:1: syntax error: the file is empty");
+        throw Error(PT_ERROR_INVALID_SCENE, file_name + ":1:1: syntax error: the file is empty");
     const JsonPath none;
     ItemParser parser(handler, none);
     try {
         parser.parse(text);
     } catch (const json::parse_error &error) {
-        throw failure_of(error, parser, text, file_name);
+        throw error_of(error, parser, text, file_name);
     }
+}
+
+std::string_view require_text(std::string_view contents, const std::string &file_name) {
+    constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+    if (const std::size_t zero = contents.find('\0'); zero != std::string_view::npos) {
+        throw Error(PT_ERROR_INVALID_SCENE, file_name + ":" + line_and_column(contents.substr(0, zero)) +
+                                                ": a NUL byte: this is not UTF-8 text");
+    }
+    contents.remove_prefix(contents.starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
+    return contents;
 }
 
 std::optional<std::size_t> line_of(std::string_view text, const JsonPath &path) {
@@ -230,4 +246,4 @@ std::optional<std::size_t> line_of(std::string_view text, const JsonPath &path) 
     return parser.line();
 }
 
-} // namespace cli
+} // namespace pt

@@ -1,7 +1,8 @@
 // Reads scene files, and applies overrides.
-#include "cli/base/names.h"
-#include "cli/base/text.h"
-#include "cli/scene/scene_keys.h"
+#include "lib/scene_file/json_items.h"
+#include "lib/scene_file/names.h"
+#include "lib/scene_file/scene_keys.h"
+#include "lib/scene_file/text.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -12,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace cli {
+namespace pt {
 namespace {
 
 using nlohmann::json;
@@ -47,7 +48,7 @@ public:
     // scene: with its overrides.
     explicit SceneReader(SceneFile &scene) : scene_(scene) {}
 
-    // Functions throw JsonRefusal or Failure.
+    // Functions also throw JsonRefusal.
     void begin_section(const JsonPlace &place, json::value_t kind) override {
         section_ = find_section(place.key);
         if (section_ == nullptr && place.key != "animation")
@@ -100,7 +101,7 @@ private:
             for (const std::size_t index : changes) {
                 const SceneOverride &cause = scene_.overrides[index];
                 if (is_within(refusal.path, cause.path) || is_within(cause.path, refusal.path))
-                    throw Failure(cause.blame, cause.name_of(refusal.path) + ": " + refusal.what());
+                    throw Error(cause.blame, cause.name_of(refusal.path) + ": " + refusal.what());
             }
             throw;
         }
@@ -236,13 +237,13 @@ private:
             const SceneOverride &first = scene_.overrides[i];
             const JsonPath item(first.path.begin(), first.path.begin() + item_depth);
             if (item[0].in_array || item[1].in_array)
-                throw Failure(first.blame, first.source + ": the scene has no " + path_text(item));
+                throw Error(first.blame, first.source + ": the scene has no " + path_text(item));
             const JsonPlace root;
             const JsonPlace section = root.member(item[0].key);
             try {
                 begin_section(section, json::value_t::object);
             } catch (const JsonRefusal &refusal) {
-                throw Failure(first.blame, first.source + ": " + refusal.what());
+                throw Error(first.blame, first.source + ": " + refusal.what());
             }
             read_changed(section.member(item[1].key), nullptr, overrides_of(item));
         }
@@ -282,4 +283,4 @@ void read_sections(SceneFile &scene, std::string_view text) {
     reader.finish();
 }
 
-} // namespace cli
+} // namespace pt

@@ -2,8 +2,8 @@
 // (numpy.org/doc/stable/reference/generated/numpy.lib.format.html).
 #pragma once
 
-#include "cli/base/json.h"
 #include "lib/platform/input_file.h"
+#include "lib/scene_file/json_value.h"
 
 #include <nlohmann/json.hpp>
 #include <pt/pt.h>
@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-namespace cli {
+namespace pt {
 
 // Row order, little-endian.
 struct NpyArray {
@@ -29,7 +29,7 @@ struct NpyArray {
     std::uint32_t row_bytes() const;
 };
 
-// Reads one or two dimensions of float32, float64 or uint8. Throws Failure(ExitCode::scene), naming the file, for
+// Reads one or two dimensions of float32, float64 or uint8. Throws PT_ERROR_INVALID_SCENE, naming the file, for
 // anything else or a wrong size, before reading elements.
 NpyArray read_npy(platform::InputFile &file, const std::string &name);
 
@@ -61,7 +61,7 @@ struct SphereColumns {
 // Paths in the scene's order.
 std::vector<std::string> column_paths(const SceneFile &scene);
 
-// Throws Failure: ExitCode::file if a file is unreadable, ExitCode::scene if it is unsuitable.
-void load_columns(SceneFile &scene);
+// Throws PT_ERROR_FILE if a file is unreadable, PT_ERROR_INVALID_SCENE if it is unsuitable.
+void read_columns(SceneFile &scene);
 
-} // namespace cli
+} // namespace pt

@@ -1,11 +1,12 @@
-#include "cli/base/names.h"
+#include "lib/scene_file/names.h"
 
-#include "cli/base/text.h"
+#include "lib/platform/printable.h"
+#include "lib/scene_file/text.h"
 
 #include <cctype>
 #include <vector>
 
-namespace cli {
+namespace pt {
 namespace {
 
 char lower(char letter) {
@@ -63,4 +64,4 @@ std::string unknown_name(std::string_view kind, std::string_view name, std::span
     return platform::printable(message);
 }
 
-} // namespace cli
+} // namespace pt

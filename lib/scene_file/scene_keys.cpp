@@ -1,12 +1,12 @@
-#include "cli/scene/scene_keys.h"
+#include "lib/scene_file/scene_keys.h"
 
-#include "cli/base/enumerations.h"
+#include "lib/scene_file/enumerations.h"
 
 #include <algorithm>
 #include <limits>
 #include <numbers>
 
-namespace cli {
+namespace pt {
 namespace {
 
 using nlohmann::json;
@@ -267,4 +267,4 @@ std::vector<std::string_view> key_names(const SceneSection &section) {
     return names;
 }
 
-} // namespace cli
+} // namespace pt

@@ -1,18 +1,15 @@
-// `pt schema`: the JSON Schema of scene files.
-#include "cli/base/json.h"
-#include "cli/base/text.h"
-#include "cli/commands.h"
-#include "cli/scene/scene_keys.h"
+#include "lib/scene_file/scene_schema.h"
+
+#include "lib/scene_file/scene_keys.h"
+#include "lib/scene_file/text.h"
 
 #include <cmath>
 #include <cstdint>
-#include <iostream>
 #include <nlohmann/json.hpp>
-#include <string>
 #include <utility>
 #include <vector>
 
-namespace cli {
+namespace pt {
 namespace {
 
 using Schema = nlohmann::ordered_json;
@@ -119,8 +116,9 @@ Schema animation() {
             {"additionalProperties", {{"type", "array"}, {"items", key}, {"minItems", 1}}}};
 }
 
-// Draft 7 (json-schema.org/draft-07). Rules on two values (names of materials, look_at, up) are left to `pt`.
-Schema scene_schema() {
+} // namespace
+
+std::string scene_schema() {
     Schema schema{{"$schema", "http://json-schema.org/draft-07/schema#"},
                   {"title", "Scene of pt"},
                   {"type", "object"},
@@ -128,16 +126,7 @@ Schema scene_schema() {
     for (const SceneSection &section : scene_sections())
         schema["properties"][std::string(section.name)] = section_schema(section);
     schema["properties"]["animation"] = animation();
-    return schema;
+    return schema.dump(2) + "\n";
 }
 
-} // namespace
-
-void add_schema_command(CLI::App &program, Run &chosen) {
-    add_command(program, chosen, "schema", "Print the JSON Schema of scene files", "", [] {
-        std::cout << json_text(scene_schema());
-        return static_cast<int>(ExitCode::done);
-    });
-}
-
-} // namespace cli
+} // namespace pt

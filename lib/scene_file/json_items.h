@@ -2,7 +2,7 @@
 // million spheres never become one tree.
 #pragma once
 
-#include "cli/base/json.h"
+#include "lib/scene_file/json_value.h"
 
 #include <nlohmann/json.hpp>
 
@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-namespace cli {
+namespace pt {
 
 class JsonItemHandler {
 public:
@@ -24,12 +24,15 @@ public:
     virtual void item(const JsonPlace &place, const nlohmann::json &value) = 0;
 };
 
-// Allows comments. Throws Failure(ExitCode::scene) for syntax errors, "file:line:column: ...", and JsonRefusal for
+// Allows comments. Throws PT_ERROR_INVALID_SCENE for syntax errors, "file:line:column: ...", and JsonRefusal for
 // duplicate keys, numbers beyond double, and a root other than an object.
 void parse_json_items(std::string_view text, const std::string &file_name, JsonItemHandler &handler);
+
+// Removes a byte order mark. Throws PT_ERROR_INVALID_SCENE at a NUL byte.
+std::string_view require_text(std::string_view contents, const std::string &file_name);
 
 // Line, from 1, of the value at the path or the innermost one around it, where the text can be parsed. The last of
 // repeated keys wins.
 std::optional<std::size_t> line_of(std::string_view text, const JsonPath &path);
 
-} // namespace cli
+} // namespace pt

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-namespace cli {
+namespace pt {
 
 template <typename Value>
 struct Named {
@@ -51,4 +51,4 @@ std::string_view nearest_name(std::string_view name, std::span<const std::string
 // Returns `unknown key "raduis", did you mean "radius"?`, or a short list of all names.
 std::string unknown_name(std::string_view kind, std::string_view name, std::span<const std::string_view> known);
 
-} // namespace cli
+} // namespace pt

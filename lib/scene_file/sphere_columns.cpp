@@ -1,8 +1,9 @@
-#include "cli/scene/sphere_columns.h"
+#include "lib/scene_file/sphere_columns.h"
 
-#include "cli/base/file.h"
-#include "cli/base/text.h"
-#include "cli/scene/scene_keys.h"
+#include "lib/base/struct_size.h"
+#include "lib/scene_file/read_file.h"
+#include "lib/scene_file/scene_keys.h"
+#include "lib/scene_file/text.h"
 
 #include <algorithm>
 #include <bit>
@@ -10,7 +11,7 @@
 #include <limits>
 #include <string_view>
 
-namespace cli {
+namespace pt {
 namespace {
 
 using nlohmann::json;
@@ -80,7 +81,9 @@ public:
         return array;
     }
 
-    [[noreturn]] void refuse(const std::string &what) const { throw Failure(ExitCode::scene, name_ + ": " + what); }
+    [[noreturn]] void refuse(const std::string &what) const {
+        throw Error(PT_ERROR_INVALID_SCENE, name_ + ": " + what);
+    }
 
 private:
     static constexpr std::size_t longest_row = 3;
@@ -141,7 +144,8 @@ void for_each_file(AnyScene &scene, Use use) {
 
 void check_fit(const SceneKey &key, const NpyArray &array, const NpyArray &centers, const std::string &path) {
     const auto refuse_to_have = [&](bool is_refused, const std::string &what) {
-        refuse_if(is_refused, path + ": has " + what, ExitCode::scene);
+        if (is_refused)
+            throw Error(PT_ERROR_INVALID_SCENE, path + ": has " + what);
     };
     const bool is_single = length_of(key) == 1;
     refuse_to_have(is_single ? array.row_length != 0 : array.row_length != length_of(key),
@@ -212,17 +216,17 @@ std::vector<std::string> column_paths(const SceneFile &scene) {
     return paths;
 }
 
-void load_columns(SceneFile &scene) {
+void read_columns(SceneFile &scene) {
     for_each_file(scene, [&](SphereColumns &each, SphereColumn &column) {
         const std::string path = path_of(scene, column);
         try {
             column.array = read_file(path, [&](platform::InputFile &file) { return read_npy(file, path); });
             check_fit(*column.key, column.array, each.columns.front().array, path);
-        } catch (const Failure &failure) {
-            throw Failure(failure.code(), concat(scene.path, ": ", each.section, "[", each.item, "].", column.key->name,
-                                                 ": ", failure.what()));
+        } catch (const Error &error) {
+            throw Error(error.code(), concat(scene.path, ": ", each.section, "[", each.item, "].", column.key->name,
+                                             ": ", error.what()));
         }
     });
 }
 
-} // namespace cli
+} // namespace pt

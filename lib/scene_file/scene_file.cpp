@@ -1,8 +1,10 @@
-#include "cli/scene/scene_file.h"
+#include "lib/scene_file/scene_file.h"
 
-#include "cli/base/file.h"
-#include "cli/base/text.h"
-#include "cli/scene/scene_keys.h"
+#include "lib/platform/printable.h"
+#include "lib/scene_file/json_items.h"
+#include "lib/scene_file/read_file.h"
+#include "lib/scene_file/scene_keys.h"
+#include "lib/scene_file/text.h"
 
 #include <algorithm>
 #include <iterator>
@@ -10,7 +12,7 @@
 #include <string>
 #include <utility>
 
-namespace cli {
+namespace pt {
 namespace {
 
 bool is_opaque(const Look &look) {
@@ -59,26 +61,29 @@ constexpr std::array<std::array<std::string_view, 2>, 6> renamed{{{"camera.targe
 JsonPath path_in_arrays(const SceneFile &scene, const BrokenRule &rule) {
     const std::size_t of_spheres = scene.looks.empty() ? 0 : 1;
     const std::size_t of_single = of_spheres + (scene.capsules.empty() ? 0 : 1);
-    const bool is_single = *rule.index < of_single;
-    const SphereColumns *const many = is_single ? nullptr : &scene.sphere_columns[*rule.index - of_single];
-    const std::string_view section = many ? many->section : *rule.index < of_spheres ? "spheres" : "capsules";
-    const std::size_t item = many ? many->item : scene.item_of(section, rule.component.value_or(0));
+    const auto array = static_cast<std::size_t>(rule.index);
+    const auto element = static_cast<std::size_t>(std::max(rule.component, 0));
+    const bool is_single = array < of_single;
+    const SphereColumns *const many = is_single ? nullptr : &scene.sphere_columns[array - of_single];
+    const std::string_view section = many ? many->section : array < of_spheres ? "spheres" : "capsules";
+    const std::size_t item = many ? many->item : scene.item_of(section, element);
     JsonPath path{{std::string(section)}, {{}, item, true}, {rule.member}};
-    if (rule.component && !is_single && rule.member != "material") // one for all
-        path.push_back({{}, *rule.component, true});
+    if (rule.component >= 0 && !is_single && rule.member != "material") // one for all
+        path.push_back({{}, element, true});
     return path;
 }
 
 BrokenRule with_names(const SceneFile &scene, const BrokenRule &rule) {
     BrokenRule named = rule;
+    named.value = platform::printable(rule.value);
     if (rule.subject == "sphere_arrays" && rule.member == "material")
-        named.value = concat('"', scene.material_names[std::stoul(rule.value)], '"');
+        named.value = platform::printable(concat('"', scene.material_names[std::stoul(rule.value)], '"'));
     return named;
 }
 
 // Empty if the file has no such field.
 JsonPath path_of(const SceneFile &scene, const BrokenRule &rule) {
-    if (rule.subject == "sphere_arrays" && rule.index)
+    if (rule.subject == "sphere_arrays" && rule.index >= 0)
         return path_in_arrays(scene, rule);
     const std::string name = rule.subject + "." + rule.member;
     JsonPath path;
@@ -89,15 +94,16 @@ JsonPath path_of(const SceneFile &scene, const BrokenRule &rule) {
         return {};
     } else {
         path.push_back({rule.subject});
-        if (rule.index) {
-            const bool is_named = rule.subject == "materials" && *rule.index < scene.material_names.size();
-            const std::size_t item = rule.subject == "spheres" ? scene.item_of("spheres", *rule.index) : *rule.index;
+        if (rule.index >= 0) {
+            const auto index = static_cast<std::size_t>(rule.index);
+            const bool is_named = rule.subject == "materials" && index < scene.material_names.size();
+            const std::size_t item = rule.subject == "spheres" ? scene.item_of("spheres", index) : index;
             path.push_back(is_named ? JsonStep{scene.material_names[item]} : JsonStep{{}, item, true});
         }
         path.push_back({rule.member});
     }
-    if (rule.component)
-        path.push_back({{}, *rule.component, true});
+    if (rule.component >= 0)
+        path.push_back({{}, static_cast<std::size_t>(rule.component), true});
     return path;
 }
 
@@ -106,11 +112,6 @@ const SceneOverride *find_override(const SceneFile &scene, const JsonPath &path)
     const auto found = std::find_if(scene.overrides.rbegin(), scene.overrides.rend(),
                                     [&](const SceneOverride &each) { return is_within(path, each.path); });
     return found == scene.overrides.rend() ? nullptr : &*found;
-}
-
-// Whether the command line is to blame.
-bool is_of_command(const SceneFile &scene, const BrokenRule &rule, const JsonPath &path) {
-    return find_option(rule) != nullptr && (path.empty() || !scene.gives(path));
 }
 
 std::string place_text(const SceneFile &scene, const JsonPath &path) {
@@ -160,36 +161,26 @@ bool SceneFile::gives(const JsonPath &key) const {
     return std::ranges::any_of(given, [&](const JsonPath &each) { return is_within(key, each); });
 }
 
+bool SceneFile::gives(const BrokenRule &rule) const {
+    const JsonPath path_there = path_of(*this, rule);
+    return find_override(*this, path_there) != nullptr || (!path_there.empty() && gives(path_there));
+}
+
 std::string SceneFile::explain(const BrokenRule &rule) const {
     const JsonPath path_there = path_of(*this, rule);
+    const BrokenRule named = with_names(*this, rule);
     if (const SceneOverride *cause = find_override(*this, path_there))
-        return rule_text(cause->name_of(path_there), rule);
-    if (is_of_command(*this, rule, path_there))
-        return in_words_of_options(rule);
-    return rule_text(place_text(*this, path_there) + ": " +
-                         (path_there.empty() ? field_text(rule) : path_text(path_there)),
-                     with_names(*this, rule));
+        return named.text(cause->name_of(path_there));
+    return named.text(place_text(*this, path_there) + ": " +
+                      (path_there.empty() ? rule.field() : path_text(path_there)));
 }
 
-std::string SceneFile::explain(const LibraryError &error) const {
-    return error.rules.empty() ? path + ": " + error.message
-                               : error.in_words([&](const BrokenRule &rule) { return explain(rule); });
+pt_result SceneFile::blame(const BrokenRule &rule) const {
+    const SceneOverride *cause = find_override(*this, path_of(*this, rule));
+    return cause != nullptr ? cause->blame : PT_ERROR_INVALID_SCENE;
 }
 
-ExitCode SceneFile::blame(const BrokenRule &rule) const {
-    const JsonPath path_there = path_of(*this, rule);
-    if (const SceneOverride *cause = find_override(*this, path_there))
-        return cause->blame;
-    return is_of_command(*this, rule, path_there) ? ExitCode::usage : ExitCode::scene;
-}
-
-ExitCode SceneFile::blame(const LibraryError &error) const {
-    const bool is_usage =
-        std::ranges::any_of(error.rules, [&](const BrokenRule &rule) { return blame(rule) == ExitCode::usage; });
-    return is_usage ? ExitCode::usage : ExitCode::scene;
-}
-
-SceneFile parse_scene(std::string text, const std::string &path, std::vector<SceneOverride> overrides) {
+SceneFile scene_of_text(std::string text, const std::string &path, std::vector<SceneOverride> overrides) {
     SceneFile scene;
     scene.path = path;
     scene.text = std::move(text);
@@ -199,18 +190,15 @@ SceneFile parse_scene(std::string text, const std::string &path, std::vector<Sce
     } catch (const JsonRefusal &refusal) {
         const auto line = line_of(scene.text, refusal.cause);
         const std::string name = path_text(refusal.path);
-        throw Failure(ExitCode::scene, path + (line ? ":" + std::to_string(*line) : "") +
-                                           (name.empty() ? "" : ": " + name) + ": " + refusal.what());
+        throw Error(PT_ERROR_INVALID_SCENE, path + (line ? ":" + std::to_string(*line) : "") +
+                                                (name.empty() ? "" : ": " + name) + ": " + refusal.what());
     }
     return scene;
 }
 
-Display display_of(const std::vector<SceneOverride> &overrides) {
-    return parse_scene("{}", "", overrides).display;
+SceneFile scene_of_file(const std::string &path, std::vector<SceneOverride> overrides) {
+    const auto read = [](platform::InputFile &file) { return file.text(); };
+    return scene_of_text(read_file(path, read), path, std::move(overrides));
 }
 
-SceneFile read_scene_file(const std::string &path, std::vector<SceneOverride> overrides) {
-    return parse_scene(read_text(path), path == standard_stream ? "standard input" : path, std::move(overrides));
-}
-
-} // namespace cli
+} // namespace pt

@@ -1,8 +1,8 @@
 // The table of scene keys, from which reader, JSON Schema, options and the manual's rows follow.
 #pragma once
 
-#include "cli/base/json.h"
-#include "cli/scene/scene_file.h"
+#include "lib/scene_file/json_value.h"
+#include "lib/scene_file/scene_file.h"
 
 #include <pt/pt.h>
 
@@ -12,7 +12,7 @@
 #include <string>
 #include <string_view>
 
-namespace cli {
+namespace pt {
 
 struct SceneItem {
     SceneFile &scene;
@@ -61,7 +61,7 @@ const SceneKey *find_key(const SceneSection &section, std::string_view name);
 
 std::vector<std::string_view> key_names(const SceneSection &section);
 
-// text: without byte order mark. Throws JsonRefusal or Failure.
+// text: without byte order mark. Also throws JsonRefusal.
 void read_sections(SceneFile &scene, std::string_view text);
 
-} // namespace cli
+} // namespace pt

@@ -1,13 +1,13 @@
-// Reads scene files into the structs of pt.h. Checks names, types and units; the library checks ranges, and explain()
-// translates its messages.
+// Reads scene files into the structs of pt.h. Checks names, types and units; libpt checks ranges, and explain()
+// translates its messages. Errors are PT_ERROR_INVALID_SCENE, or an override's `blame`.
 #pragma once
 
-#include "cli/base/context.h"
-#include "cli/base/exit_code.h"
-#include "cli/image/tone_map.h"
-#include "cli/scene/json_items.h"
-#include "cli/scene/scene_override.h"
-#include "cli/scene/sphere_columns.h"
+#include "lib/base/error.h"
+#include "lib/base/struct_size.h"
+#include "lib/scene_file/animation.h"
+#include "lib/scene_file/display.h"
+#include "lib/scene_file/json_value.h"
+#include "lib/scene_file/sphere_columns.h"
 
 #include <pt/pt.h>
 
@@ -19,7 +19,7 @@
 #include <string_view>
 #include <vector>
 
-namespace cli {
+namespace pt {
 
 // Looks from (0, 0, 1) to the origin.
 constexpr pt_camera default_camera() {
@@ -61,7 +61,7 @@ struct SceneFile {
     std::vector<Look> looks; // as many as spheres, or empty
     std::vector<Capsule> capsules;
     std::vector<pt_plane> planes;
-    std::vector<SphereColumns> sphere_columns; // files are read by load_columns()
+    std::vector<SphereColumns> sphere_columns; // files are read by read_columns()
     std::vector<AnimatedValue> animation;
     pt_camera camera = default_camera();
     pt_render render = default_render();
@@ -79,23 +79,21 @@ struct SceneFile {
 
     bool gives(const JsonPath &key) const;
 
-    // Messages with the field's source: an option, or file and line, as in "scene.json:7: materials.gold.glossiness =
-    // -1: must be >= 0".
-    std::string explain(const BrokenRule &rule) const;
-    std::string explain(const LibraryError &error) const;
+    // Whether the file or an override gives the field; else it has its default, or is no field of scene files.
+    bool gives(const BrokenRule &rule) const;
 
-    // ExitCode::scene, or the override's.
-    ExitCode blame(const BrokenRule &rule) const;
-    ExitCode blame(const LibraryError &error) const;
+    // A message with the field's source: an override, or file and line, as in "scene.json:7: materials.gold.glossiness
+    // = -1: must be >= 0".
+    std::string explain(const BrokenRule &rule) const;
+
+    // PT_ERROR_INVALID_SCENE, or the override's.
+    pt_result blame(const BrokenRule &rule) const;
 };
 
-// Later overrides win. Throws Failure: for the text ExitCode::scene, for a wrong override its `blame`.
-SceneFile parse_scene(std::string text, const std::string &path, std::vector<SceneOverride> overrides = {});
+// Later overrides win. path: for messages and columns.
+SceneFile scene_of_text(std::string text, const std::string &path, std::vector<SceneOverride> overrides = {});
 
-// For commands without a scene file.
-Display display_of(const std::vector<SceneOverride> &overrides);
+// Also throws PT_ERROR_FILE.
+SceneFile scene_of_file(const std::string &path, std::vector<SceneOverride> overrides = {});
 
-// path "-": standard input. Throws Failure.
-SceneFile read_scene_file(const std::string &path, std::vector<SceneOverride> overrides = {});
-
-} // namespace cli
+} // namespace pt

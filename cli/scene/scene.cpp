@@ -1,0 +1,61 @@
+#include "cli/scene/scene.h"
+
+#include "cli/base/file.h"
+
+#include <algorithm>
+
+namespace cli {
+namespace {
+
+bool is_of_command(const SceneFile &scene, const BrokenRule &rule) {
+    return find_option(rule) != nullptr && !scene.gives(rule);
+}
+
+std::string read_standard_input() {
+    try {
+        return platform::InputFile().text();
+    } catch (const platform::InputError &error) {
+        throw unreadable("standard input", error);
+    }
+}
+
+} // namespace
+
+SceneFile parse_scene(std::string text, const std::string &path, std::vector<SceneOverride> overrides) {
+    return with_exit_code([&] { return pt::scene_of_text(std::move(text), path, std::move(overrides)); });
+}
+
+SceneFile read_scene_file(const std::string &path, std::vector<SceneOverride> overrides) {
+    if (path == standard_stream)
+        return parse_scene(read_standard_input(), "standard input", std::move(overrides));
+    return with_exit_code([&] { return pt::scene_of_file(path, std::move(overrides)); });
+}
+
+void load_columns(SceneFile &scene) {
+    with_exit_code([&] { pt::read_columns(scene); });
+}
+
+Display display_of(const std::vector<SceneOverride> &overrides) {
+    return parse_scene("{}", "", overrides).display;
+}
+
+std::string explain(const SceneFile &scene, const BrokenRule &rule) {
+    return is_of_command(scene, rule) ? in_words_of_options(rule) : scene.explain(rule);
+}
+
+std::string explain(const SceneFile &scene, const LibraryError &error) {
+    return error.rules.empty() ? scene.path + ": " + error.message
+                               : error.in_words([&](const BrokenRule &rule) { return explain(scene, rule); });
+}
+
+ExitCode blame(const SceneFile &scene, const BrokenRule &rule) {
+    return is_of_command(scene, rule) ? ExitCode::usage : exit_code_of(scene.blame(rule));
+}
+
+ExitCode blame(const SceneFile &scene, const LibraryError &error) {
+    const bool is_usage =
+        std::ranges::any_of(error.rules, [&](const BrokenRule &rule) { return blame(scene, rule) == ExitCode::usage; });
+    return is_usage ? ExitCode::usage : ExitCode::scene;
+}
+
+} // namespace cli

@@ -1,0 +1,45 @@
+// Scene files as the program reads them: errors are Failures.
+#pragma once
+
+#include "cli/base/context.h"
+#include "cli/base/exit_code.h"
+#include "lib/scene_file/scene_file.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace cli {
+
+using pt::Display;
+using pt::SceneFile;
+using pt::SceneOverride;
+
+template <typename Call>
+auto with_exit_code(const Call &call) {
+    try {
+        return call();
+    } catch (const pt::Error &error) {
+        throw Failure(exit_code_of(error.code()), error.what());
+    }
+}
+
+SceneFile parse_scene(std::string text, const std::string &path, std::vector<SceneOverride> overrides = {});
+
+// path "-": standard input.
+SceneFile read_scene_file(const std::string &path, std::vector<SceneOverride> overrides = {});
+
+void load_columns(SceneFile &scene);
+
+// For commands without a scene file.
+Display display_of(const std::vector<SceneOverride> &overrides);
+
+// Names the option that sets the field, if it is set by none of the scene's.
+std::string explain(const SceneFile &scene, const BrokenRule &rule);
+std::string explain(const SceneFile &scene, const LibraryError &error);
+
+// ExitCode::scene, or ExitCode::usage for an option's value.
+ExitCode blame(const SceneFile &scene, const BrokenRule &rule);
+ExitCode blame(const SceneFile &scene, const LibraryError &error);
+
+} // namespace cli

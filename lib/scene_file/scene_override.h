@@ -1,0 +1,34 @@
+// Values that replace a scene file's: a program's, or its animation's.
+#pragma once
+
+#include "lib/base/error.h"
+#include "lib/scene_file/json_value.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace pt {
+
+inline constexpr std::size_t item_depth = 2;
+
+struct SceneOverride {
+    JsonPath path;
+    nlohmann::json value;
+    std::string source;       // shown in messages: "--set camera.vertical_fov=30"
+    pt_result blame;          // if the value is wrong
+    bool is_its_name = false; // messages call the value "--spp", not by its path
+
+    // Adds missing members of objects; elements of arrays must exist. Throws `blame`.
+    void apply_to(nlohmann::json &item) const;
+
+    std::string name_of(const JsonPath &part) const { return is_its_name ? source : source + ": " + path_text(part); }
+};
+
+// text: "camera.vertical_fov=30", JSON, or else a text, so names need no quotes. name: before it in messages, like
+// "--set ". Throws PT_ERROR_INVALID_ARGUMENT.
+SceneOverride parse_override(const std::string &text, const std::string &name);
+
+} // namespace pt
