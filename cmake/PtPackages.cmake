@@ -1,5 +1,5 @@
-# Debian packages, made by `cpack -G DEB` in the build folder: libpt0.3, named after the soname, to run programs with,
-# libpt0.3-dev to build them, pt the program, pt-image-formats with which it writes EXR and JPEG, and libpt0.3-glsl with which
+# Debian packages, made by `cpack -G DEB` in the build folder: libpt0.4, named after the soname, to run programs with,
+# libpt0.4-dev to build them, pt the program, pt-image-formats with which it writes EXR and JPEG, and libpt0.4-glsl with which
 # programs compile kernels while they run. Dependencies are those that dpkg-shlibdeps finds. Included by the top CMakeLists.txt.
 set(pt_runtime_package libpt${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 set(pt_development_package ${pt_runtime_package}-dev)

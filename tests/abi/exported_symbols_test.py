@@ -7,7 +7,7 @@ import subprocess
 import sys
 import tempfile
 
-SONAME = "libpt.so.0.3"
+SONAME = "libpt.so.0.4"
 
 
 def output(*command):
@@ -65,7 +65,7 @@ def check_the_check(compiler):
             (one, SONAME, [f"{place}: pt_two is missing" for place in everywhere]),
             (one + two + "int pt_new(void) { return 3; }\n", SONAME,
              [f"{place}: pt_new is not in the list" for place in everywhere]),
-            (one + two, "libpt.so.0.1", ["the soname is libpt.so.0.1, not libpt.so.0.3"]),
+            (one + two, "libpt.so.0.1", ["the soname is libpt.so.0.1, not libpt.so.0.4"]),
         ):
             found = complaints(*build(pathlib.Path(name), compiler, source, soname), {"pt_one", "pt_two"})
             if sorted(found) != wanted:

@@ -53,7 +53,7 @@ def needed(program):
 
 def check_linkage(program, shared):
     names = [name for name in needed(program) if name.startswith("libpt")]
-    require(names == (["libpt.so.0.3"] if shared else []), f"{program} needs {names}")
+    require(names == (["libpt.so.0.4"] if shared else []), f"{program} needs {names}")
 
 
 class Steps:
@@ -129,7 +129,7 @@ class Steps:
         plugin = folder / "plugin"
         run(*strict, HERE / "c99" / "plugin.c", *self.pkg_config("--cflags"), "-ldl", "-o", plugin)
         for unload in [], ["unload"]:
-            run(plugin, self.library / "libpt.so.0.3", *unload)
+            run(plugin, self.library / "libpt.so.0.4", *unload)
         run(plugin, self.library / "missing.so", expect=1)
 
         run(*strict, EXAMPLES / "smallest.c", *self.pkg_config("--cflags", "--libs"), "-o", folder / "smallest")
@@ -211,7 +211,7 @@ class Steps:
 
     def python(self):
         folder = self.folder("python")
-        library = {"PT_LIBRARY": str(self.library / "libpt.so.0.3"), "PYTHONPATH": str(SOURCE / "lib" / "python")}
+        library = {"PT_LIBRARY": str(self.library / "libpt.so.0.4"), "PYTHONPATH": str(SOURCE / "lib" / "python")}
         run(sys.executable, "-B", EXAMPLES / "smallest.py", cwd=folder, **library)
         image = (folder / "smallest.pfm").read_bytes()
         require(len(image) == len(b"PF\n128 96\n-1.0\n") + 128 * 96 * 12, "smallest.pfm has another size")
@@ -270,13 +270,13 @@ class Steps:
         folder = self.folder("debian")
         run(self.options.cpack, "-G", "DEB", "-B", folder, cwd=self.options.build)
         packages = {path.name.split("_")[0]: path for path in folder.glob("*.deb")}
-        compiler = "libpt0.3-glsl"  # optional
-        expected = ["libpt0.3", "libpt0.3-dev", *([compiler] if compiler in packages else []), "pt", "pt-image-formats"]
+        compiler = "libpt0.4-glsl"  # optional
+        expected = ["libpt0.4", "libpt0.4-dev", *([compiler] if compiler in packages else []), "pt", "pt-image-formats"]
         require(sorted(packages) == expected, f"the packages are {sorted(packages)}")
-        exact = f"libpt0.3 (= {self.options.version})"
+        exact = f"libpt0.4 (= {self.options.version})"
         for name, wanted in {
-            "libpt0.3": ["libc6", "libstdc++6", "libvulkan1"],
-            "libpt0.3-dev": [exact, "libvulkan-dev"],
+            "libpt0.4": ["libc6", "libstdc++6", "libvulkan1"],
+            "libpt0.4-dev": [exact, "libvulkan-dev"],
             "pt": [exact, "libpng16-16", "libstdc++6"],
             "pt-image-formats": [f"pt (= {self.options.version})", "libopenimageio2."]
         }.items():
@@ -289,7 +289,7 @@ class Steps:
         require(recommends == [f"pt-image-formats (= {self.options.version})"], f"pt recommends {recommends}")
 
         alone = folder / "alone"
-        for name in "libpt0.3", "pt":
+        for name in "libpt0.4", "pt":
             run("dpkg-deb", "--extract", packages[name], alone)
         self.check_program_without_module(alone / "usr/bin/pt", folder,
                                           LD_LIBRARY_PATH=str(alone / "usr" / self.options.libdir))

@@ -179,7 +179,7 @@ class Libraries(unittest.TestCase):
                 _library.load_library(_library.library_path())
 
     def test_version_and_devices(self):
-        self.assertRegex(pt.version(), r"^0\.3\.\d+$")
+        self.assertRegex(pt.version(), r"^0\.4\.\d+$")
         found = pt.devices()
         suitable = [device for device in found if device.suitable]
         self.assertTrue(suitable)

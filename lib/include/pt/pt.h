@@ -44,7 +44,7 @@
 #endif
 
 /** major * 1000000 + minor * 1000 + patch. */
-#define PT_VERSION 3000u
+#define PT_VERSION 4000u
 
 #ifdef __cplusplus
 extern "C" {

@@ -9,7 +9,7 @@ A Context takes a Scene, a Camera and RenderSettings. It accumulates samples and
 World: right-handed; lengths in scene units, angles in radians, times in [0, 1]. Colors are linear RGB radiance. Row 0 of
 an image is the top row.
 
-The library comes from PT_LIBRARY, else from the installed package, else from the system (libpt.so.0.3).
+The library comes from PT_LIBRARY, else from the installed package, else from the system (libpt.so.0.4).
 """
 
 import importlib

@@ -12,7 +12,7 @@ from pt import _structs as structs
 from pt._enums import Result
 from pt._errors import ERROR_OF_RESULT, BrokenRule, Error
 
-VERSION: Final = "0.3"
+VERSION: Final = "0.4"
 SONAME: Final = {"win32": "pt.dll", "darwin": f"libpt.{VERSION}.dylib"}.get(sys.platform, f"libpt.so.{VERSION}")
 BROKEN_RULES_KEPT: Final = 8
 
