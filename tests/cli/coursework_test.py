@@ -5,6 +5,7 @@ import shutil
 import subprocess
 
 import numpy
+import pt
 
 from command_line import PT, SCENES, CommandLineTest, read_exr_channels
 
@@ -15,9 +16,7 @@ STEPS = (("1-light", "coursework", 1, "coursework_L1"), ("2-directions", "course
          ("3-paths", "coursework-diffuse", 6, "coursework-diffuse_L6"), ("4-gloss", "coursework", 6, "coursework_L6"),
          ("5-points", "coursework", 6, "coursework_L6"), ("6-lamps", "coursework", 6, "coursework_L6"),
          ("7-motion", "coursework-motion", 2, None))
-MOST_DEVIATION = 4.5  # in standard deviations; one of the 21 means exceeds this once in 7,000 runs
-MOST_OF_BLOCKS = 1.6  # for 96 normal deviations, the root mean square is 1 with a standard deviation of 0.07
-SIDE = 16  # pixels
+MOST_CHANGE = 0.15  # of all light; the samples of every step show one
 
 
 def pixels_of(path):
@@ -25,18 +24,6 @@ def pixels_of(path):
     image = numpy.stack([numpy.array(channels[name]) for name in "RGB"], axis=2)
     side = len(image) // 64
     return image.reshape(64, side, 128, side, 3).mean(axis=(1, 3))
-
-
-def deviations(image, reference):
-    """Returns the largest deviation of a channel's mean, and the root mean square deviation of blocks, in standard
-    deviations."""
-    def of_pixels(difference):
-        deviation = difference.std(axis=-2) / numpy.sqrt(difference.shape[-2])
-        return difference.mean(axis=-2) / numpy.maximum(deviation, 1e-9)
-
-    difference = image - reference
-    blocks = difference.reshape(64 // SIDE, SIDE, 128 // SIDE, SIDE, 3).swapaxes(1, 2).reshape(-1, SIDE * SIDE, 3)
-    return numpy.abs(of_pixels(difference.reshape(-1, 3))).max(), numpy.sqrt((of_pixels(blocks)**2).mean())
 
 
 class Coursework(CommandLineTest):
@@ -59,9 +46,9 @@ class Coursework(CommandLineTest):
             converged = (pixels_of(os.path.join(REFERENCES, f"{reference}.exr")) if reference
                          else self.render(scene, length, "--spp", "256"))
             with self.subTest(step=step):
-                all_of_it, blocks = deviations(images[step], converged)
-                self.assertLess(all_of_it, MOST_DEVIATION)
-                self.assertLess(blocks, MOST_OF_BLOCKS)
+                comparison = pt.compare(images[step], converged)
+                self.assertNotEqual(comparison.light, pt.Light.DIFFERENT, comparison)
+                self.assertLess(comparison.smallest_change, MOST_CHANGE)
             if step == "4-gloss":
                 done = subprocess.run([PT, "selftest", "--directions", "--shader-dir", self.path("kernels")], capture_output=True,
                                       text=True)
@@ -69,6 +56,4 @@ class Coursework(CommandLineTest):
                             if "hemisphere, uniform" in line or "by cosine: cosine" in line]
                 self.assertEqual(verdicts, ["pass"] * 7)
         shorter = pixels_of(os.path.join(REFERENCES, "coursework-diffuse_L2.exr"))  # negative control
-        all_of_it, blocks = deviations(images["3-paths"], shorter)
-        self.assertGreater(all_of_it, MOST_DEVIATION)
-        self.assertGreater(blocks, MOST_OF_BLOCKS)
+        self.assertEqual(pt.compare(images["3-paths"], shorter).light, pt.Light.DIFFERENT)
