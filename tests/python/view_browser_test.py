@@ -207,6 +207,22 @@ class Browser(unittest.TestCase):
         (self.kernels / "phong.glsl").write_text("// another editor\n" + (ROOT / "shaders/phong.glsl").read_text())
         self.browser.until("document.querySelector('#text .cm-content').textContent.startsWith('// another editor')")
 
+    def test_an_edited_kernel_is_compared_with_the_built_in_one(self):
+        kernels = self.folder / "edited"
+        shutil.copytree(ROOT / "shaders", kernels)
+        verdict = "document.getElementById('verdict').textContent"
+        self.open(shader_dir=kernels)
+        self.browser.until(f"{SAMPLES} > 64")
+        self.assertEqual(self.browser.value(verdict), "")
+        text = (kernels / "phong.glsl").read_text()
+        (kernels / "phong.glsl").write_text(text + "// edited\n")
+        self.browser.until(f"{verdict}.startsWith('same light as the built-in kernel to ')")
+        self.shot("same")
+        (kernels / "phong.glsl").write_text(text.replace("vec3 f = material.diffuse;", "vec3 f = 0.97 * material.diffuse;"))
+        self.browser.until(f"{verdict}.startsWith('different light: -')")
+        self.assertEqual(self.browser.value("document.getElementById('verdict').className"), "differs")
+        self.shot("different")
+
 
 def parse_png_rgba(path):
     _, _, rows = parse_png(path.read_bytes())
