@@ -1,8 +1,9 @@
 #include "lib/denoise/combination.h"
 
+#include "lib/denoise/doubts.h"
 #include "lib/denoise/limits.h"
-#include "lib/denoise/shares.h"
 #include "lib/denoise/terms.h"
+#include "lib/denoise/tiles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,12 +24,10 @@ struct Squares {
         first_moves(halves),
         second_moves(halves) {}
 
-    void add(std::size_t tile, const Terms &terms, double share, double weight) {
-        const double first_free = share * terms.first_free;
-        const double second_free = share * terms.second_free;
+    void add(std::size_t tile, const Terms &terms, double weight) {
         noise.numbers[tile] += weight * squared(terms.noise + terms.noise_change());
-        free_products.numbers[tile] += weight * first_free * second_free;
-        limit_products.numbers[tile] += weight * (terms.first_move - first_free) * (terms.second_move - second_free);
+        free_products.numbers[tile] += weight * terms.free_product();
+        limit_products.numbers[tile] += weight * terms.limit_product();
         first_moves.numbers[tile] += std::sqrt(weight) * terms.first_move;
         second_moves.numbers[tile] += std::sqrt(weight) * terms.second_move;
     }
@@ -77,21 +76,22 @@ Interval root_mean(const Tiles &sums, const Tiles &value_counts, bool uncertain)
     for (std::size_t tile = 0; tile < sums.numbers.size(); ++tile)
         variance += squared(sums.numbers[tile] - mean * value_counts.numbers[tile]);
     const double deviation = std::sqrt(variance) / count;
-    const auto root = [&](double deviations) { return std::sqrt(std::max(mean, 0.0) + deviations * deviation); };
-    return {root(normal_90), std::sqrt(std::max(mean - normal_95 * deviation, 0.0)),
-            root(normal_95) * (uncertain ? uncertain_factor : 1.0)};
+    const auto root = [&](double deviations) {
+        return std::sqrt(std::max(std::max(mean, 0.0) + deviations * deviation, 0.0));
+    };
+    const double factor = uncertain ? uncertain_factor : 1.0;
+    return {root(normal_90), root(-normal_95) / factor, root(normal_95) * factor};
 }
 
-ErrorEstimate error_of(const Halves &halves, const Tiles &shares) {
+ErrorEstimate error_of(const Halves &halves) {
     Squares squares(halves);
     Squares relative_squares(halves);
     Tiles value_counts(halves);
     for_each_pixel(halves, [&](std::size_t tile, std::size_t x, std::size_t y) {
-        const double share = at(shares, Place(x, shares.columns), Place(y, shares.rows));
         for (std::size_t channel = 0; channel < channel_count; ++channel) {
             const Terms terms = terms_at(halves, x, y, channel);
-            squares.add(tile, terms, share, 1.0);
-            relative_squares.add(tile, terms, share, terms.weight);
+            squares.add(tile, terms, 1.0);
+            relative_squares.add(tile, terms, terms.weight);
         }
         value_counts.numbers[tile] += channel_count;
     });
@@ -111,16 +111,6 @@ std::vector<float> differences(const float *filtered, const float *raw, std::siz
     return moves;
 }
 
-void scale_moves(Halves &halves, const Tiles &shares) {
-    for_each_pixel(halves, [&](std::size_t, std::size_t x, std::size_t y) {
-        const auto share = static_cast<float>(at(shares, Place(x, shares.columns), Place(y, shares.rows)));
-        for (std::size_t channel = 0; channel < channel_count; ++channel) {
-            halves.first_move[halves.index(x, y, channel)] *= share;
-            halves.second_move[halves.index(x, y, channel)] *= share;
-        }
-    });
-}
-
 } // namespace
 
 ErrorEstimate combine(const pt_denoise_info &info, const float *first_filtered, const float *second_filtered) {
@@ -134,13 +124,12 @@ ErrorEstimate combine(const pt_denoise_info &info, const float *first_filtered, 
                   .first_move = differences(first_filtered, info.first, value_count),
                   .second_move = differences(second_filtered, info.second, value_count)};
     limit_moves(halves);
-    const Tiles shares = best_shares(halves);
-    scale_moves(halves, shares);
+    take_back_doubtful_moves(halves);
     keep_mean(halves);
     for (std::size_t i = 0; i < value_count; ++i)
         info.denoised[i] = static_cast<float>(0.5 * (double{info.first[i]} + info.second[i]) +
                                               0.5 * (double{halves.first_move[i]} + halves.second_move[i]));
-    return error_of(halves, shares);
+    return error_of(halves);
 }
 
 } // namespace pt

@@ -8,13 +8,11 @@
 //
 // The first term is the variance. The second is the squared bias, called the faults.
 //
-// Moves are limited (limits.h), then scaled by a share t in [0, 1]. With faults f, the sum of
-// s^2 + 2 s u t + (u^2 + f) t^2 is least at t = -sum s u / (sum u^2 + f) (James and Stein, "Estimation with quadratic
-// loss", 1961). The smallest of four such t is used: for absolute and for relative errors, each with all pixels and
-// without the pixel of each tile that gains most.
+// Without moves the square is s^2, so with the faults f the moves change it by 2 s u + u^2 + f. Moves are limited
+// (limits.h), taken back where they may do harm (doubts.h), and clipped to keep the mean.
 //
-// Limits depend on both halves, so (1) holds only for the free moves v = t (D(A) - A) and w = t (D(B) - B). Limited
-// moves add E (p - v) (B - r) + E (q - w) (A - r). Where the filter is right, D(A) and D(B) estimate r, and the faults
+// Limits depend on both halves, so (1) holds only for the free moves v = D(A) - A and w = D(B) - B. Limited moves
+// add E (p - v) (B - r) + E (q - w) (A - r). Where the filter is right, D(A) and D(B) estimate r, and the faults
 // are v w + (p - v) (q - w). Where the limits undo a wrong filter, p - v = -v: both products are equal, and there are
 // no faults. The faults of a tile are therefore the difference between the sums of both products. A lower bound is
 // (sum p) (sum q) / n for n values (Cauchy's inequality).

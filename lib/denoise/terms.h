@@ -18,6 +18,13 @@ struct Terms {
     double noise_change() const { // u
         return 0.5 * (first_move - second_move);
     }
+
+    double free_product() const { return first_free * second_free; }
+
+    double limit_product() const { return (first_move - first_free) * (second_move - second_free); }
+
+    // The expected change of the squared error, with the faults of a right filter.
+    double change() const { return noise_change() * (2.0 * noise + noise_change()) + free_product() + limit_product(); }
 };
 
 Terms terms_at(const Halves &halves, std::size_t x, std::size_t y, std::size_t channel);

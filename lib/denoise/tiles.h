@@ -24,17 +24,6 @@ struct Tiles {
 // beyond the edge, so the sum over all tiles does not change.
 void spread(Tiles &tiles);
 
-// The position of a pixel between the centers of two tiles. The share is the weight of the second tile.
-struct Place {
-    std::size_t first;
-    std::size_t second;
-    double share;
-
-    Place(std::size_t pixel, std::size_t count);
-};
-
-double at(const Tiles &tiles, const Place &x, const Place &y);
-
 template <typename Visit>
 void for_each_pixel(const Halves &halves, Visit &&visit) {
     const Tiles tiles(halves);

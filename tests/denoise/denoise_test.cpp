@@ -82,6 +82,12 @@ struct Denoising {
         return mean([&](std::size_t i) { return std::pow(0.5 * (double{first[i]} + second[i]) - limit_at(i), 2); });
     }
 
+    double raw_relative_square() const {
+        return mean([&](std::size_t i) {
+            return std::pow(0.5 * (double{first[i]} + second[i]) - limit_at(i), 2) / (limit_at(i) * limit_at(i) + 0.01);
+        });
+    }
+
     // rmse^2 is 1.28 standard errors above the stated square, and rmse_low^2 is 1.96 below it.
     double stated_square() const {
         EXPECT_GT(error.rmse_low, 0.0);
@@ -163,11 +169,63 @@ TEST(Denoise, StatesRareLightThatItsFilterTakesAway) {
 // With little noise, shifting or darkening does more harm than good.
 TEST(Denoise, IsNoWorseThanTheRawImage) {
     for (const char *wish : {"identity", "", "shift", "darken"})
-        for (const double deviation : {much_noise, 0.2, 0.02}) {
-            const Stated stated = over_seeds(wish, deviation);
-            const bool is_good = *wish == '\0' && deviation == much_noise;
-            EXPECT_LT(stated.mean_true, (is_good ? 0.5 : 1.001) * stated.mean_raw) << wish << deviation;
-        }
+        for (const double deviation : {much_noise, 0.2, 0.02})
+            for (std::uint64_t seed = 0; seed < 6; ++seed) {
+                Denoising denoising(seed, deviation);
+                ASSERT_EQ(denoising.run(wish), PT_OK);
+                const bool is_good = *wish == '\0' && deviation == much_noise;
+                const double most = is_good ? 0.5 : 1.001;
+                EXPECT_LT(denoising.true_square(), most * denoising.raw_square()) << wish << deviation;
+                EXPECT_LT(denoising.true_relative_square(), most * denoising.raw_relative_square())
+                    << wish << deviation;
+            }
+}
+
+struct Level {
+    double light;
+    double noise; // relative
+};
+
+// Stripes of two levels. In the first, each half has a mark at every fifth place with probability 1/2. Blurring is
+// wrong where one half has the mark, which limits allow, and where both have it, which limits forbid. It is right
+// elsewhere, so it would gain by relative errors where marks are bright, and by absolute errors where they are dark.
+TEST(Denoise, KeepsMarksThatHalvesHaveByChance) {
+    constexpr double mark = 0.8;
+    const Level cases[][2] = {{{1, 0.05}, {1, 0.05}}, {{100, 0.005}, {1, 0.5}}, {{0.5, 0.005}, {100, 0.05}}};
+    for (const auto &levels : cases) {
+        const auto level_at = [&](std::size_t i) { return levels[i / 3 % width / 16 % 2]; };
+        const auto mark_at = [&](std::size_t i) {
+            const std::size_t x = i / 3 % width;
+            const std::size_t y = i / 3 / width;
+            const bool is_mark = x / 16 % 2 == 0 && x % 5 == 2 && y % 5 == 2;
+            return is_mark ? (x % 2 == y % 2 ? mark : -mark) * level_at(i).light : 0.0;
+        };
+        Pixels halves[2] = {Pixels(value_count), Pixels(value_count)};
+        std::mt19937_64 random(1);
+        for (std::size_t i = 0; i < value_count; ++i)
+            for (Pixels &half : halves) {
+                const double noise = level_at(i).noise * (static_cast<double>(random() >> 11) * 0x1p-52 - 1.0);
+                half[i] =
+                    static_cast<float>(level_at(i).light * (1.0 + noise) + (random() % 2 == 0 ? mark_at(i) : 0.0));
+            }
+        Denoising denoising(halves[0], halves[1]);
+        ASSERT_EQ(denoising.run(), PT_OK);
+        // Denoised over raw, with the squares' weights.
+        const auto ratio = [&](const auto &weight) {
+            const auto square = [&](const auto &value) {
+                return denoising.mean([&](std::size_t i) {
+                    const double limit = level_at(i).light + 0.5 * mark_at(i);
+                    return weight(i, limit) * std::pow(value(i) - limit, 2);
+                });
+            };
+            return square([&](std::size_t i) { return double{denoising.denoised[i]}; }) /
+                   square([&](std::size_t i) { return 0.5 * (double{halves[0][i]} + halves[1][i]); });
+        };
+        SCOPED_TRACE(levels[0].light);
+        EXPECT_LT(ratio([](std::size_t, double) { return 1.0; }), 1.02);
+        EXPECT_LT(ratio([](std::size_t, double limit) { return 1.0 / (limit * limit + 0.01); }), 1.02);
+        EXPECT_LT(ratio([&](std::size_t i, double) { return mark_at(i) == 0.0 ? 1.0 : 0.0; }), 0.9);
+    }
 }
 
 // The image has a ramp up in the upper half and a ramp down in the lower half, so a filter that shifts it by a pixel
@@ -317,6 +375,21 @@ TEST(Denoise, IsUncertainOfFewTiles) {
     uneven.first[0] = 1e5F;
     ASSERT_EQ(uneven.run(), PT_OK);
     EXPECT_EQ(uneven.error.uncertain, std::uint32_t{PT_UNCERTAIN_RMSE} | PT_UNCERTAIN_RELATIVE_RMSE);
+}
+
+// Squares of bounds lie 1.96 standard errors from the mean square, and rmse lies 1.28 above it.
+TEST(Denoise, BoundsOfUncertainErrorsAreTwiceAsWide) {
+    for (const std::size_t tiles : {6, 60}) {
+        Denoising denoising(0, 1e-3);
+        for (std::size_t tile = 0; tile < tiles; ++tile)
+            denoising.first[3 * (tile / 12 * 32 * width + tile % 12 * 16)] += 100.0F;
+        ASSERT_EQ(denoising.run("identity"), PT_OK);
+        const double factor = tiles < 8 ? 2.0 : 1.0;
+        const double low = std::pow(factor * denoising.error.rmse_low, 2);
+        const double high = std::pow(denoising.error.rmse_high / factor, 2);
+        EXPECT_GT(low, 0.0);
+        EXPECT_NEAR(std::pow(denoising.error.rmse, 2), (low + high) / 2 + 1.28 / 1.96 * (high - low) / 2, 1e-9 * high);
+    }
 }
 
 TEST(Denoise, RefusesWhatBreaksARule) {

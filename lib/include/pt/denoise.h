@@ -4,6 +4,7 @@
  * Two images of one scene have different seeds and equally many samples. pt_denoise filters each and moves their mean
  * towards the filtered images, as far as both images support (shaders/README.md, section 11). No value leaves the range
  * of both images within the 3x3 pixels about it. The mean of a channel moves by at most its standard error.
+ * Values stay raw where the expected error of 32x32 pixels would grow.
  */
 #ifndef PT_DENOISE_H
 #define PT_DENOISE_H
@@ -41,8 +42,8 @@ typedef struct pt_denoise_info {
  *
  * The estimate of the squared error has a standard error, from the spread over tiles of 8 x 8 pixels. rmse and
  * relative_rmse lie 1.28 standard errors above the estimate, the bounds 1.96 below and above it. If the error comes
- * from fewer than 8 tiles, it is uncertain (PT_UNCERTAIN_RMSE, PT_UNCERTAIN_RELATIVE_RMSE), and the upper bound is
- * doubled. Light that no sample has found is not included.
+ * from fewer than 8 tiles, it is uncertain (PT_UNCERTAIN_RMSE, PT_UNCERTAIN_RELATIVE_RMSE), and the bounds
+ * are twice as wide. Light that no sample has found is not included.
  *
  * Any thread. PT_ERROR_UNSUPPORTED: the library is missing, has another version, or does not run on this processor. */
 PT_API pt_result pt_denoise(const pt_denoise_info *info, pt_error_estimate *error);
