@@ -68,16 +68,17 @@ class Denoise(DenoiseTest):
 class RealDeviceDenoise(DenoiseTest):
     program = PT
 
-    def stated(self):
-        self.render("-o", "a.exr", DENOISE, "--spp", "17", "--stats", "a.json")
+    def stated(self, *options):
+        self.render("-o", "a.exr", DENOISE, "--spp", "17", "--stats", "a.json", *options)
         return json.loads(self.read("a.json"))
 
     def test_the_raw_image_is_beside_it(self):
-        stats = self.stated()
+        noisy = "--sampler", "random"
+        stats = self.stated(*noisy)
         self.assertEqual((stats["denoised"], stats["spp"], stats["spp_requested"]), (True, 16, 16))
         self.assertIn("40x24, 16 spp, denoised, in ", self.output)
         for name, seed in ("first", "0"), ("second", OTHER_SEED):
-            self.render("-o", f"{name}.exr", "--spp", "8", "--seed", seed, "--layers", "depth,normal")
+            self.render("-o", f"{name}.exr", "--spp", "8", "--seed", seed, "--layers", "depth,normal", *noisy)
         first, second, denoised = (self.channels(f"{name}.exr") for name in ("first", "second", "a"))
         self.assertEqual(list(denoised), ["B", "G", "R", "raw.B", "raw.G", "raw.R"])
         for name in "RGB":
@@ -87,7 +88,8 @@ class RealDeviceDenoise(DenoiseTest):
         self.assertEqual(attributes["pt.quantity"], ("string", b"denoised radiance"))
         self.assertEqual(attributes["samplesPerPixel"], ("int", struct.pack("<i", 16)))
         self.assertEqual(attributes["pt.relativeError"], ("float", struct.pack("<f", stats["relative_rmse"])))
-        self.render("-o", "b.exr", "-o", "b.png", DENOISE, "--spp", "16", "--layers", "depth,normal", "--piece-rows", "7")
+        self.render("-o", "b.exr", "-o", "b.png", DENOISE, "--spp", "16", "--layers", "depth,normal", "--piece-rows", "7",
+                    *noisy)
         self.assertEqual(self.channels("b.exr"),
                          {**denoised, **{name: first[name] for name in ("N.X", "N.Y", "N.Z", "Z")}})
         self.assertIn(("tEXt", b"pt.quantity\0tone-mapped denoised radiance"), list(png_chunks(self.contents("b.png"))))
