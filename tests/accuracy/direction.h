@@ -1,0 +1,53 @@
+// Directions in long double by the papers' definitions, and bounds of their float32 errors.
+#pragma once
+
+#include "tests/accuracy/comparison.h"
+#include "tests/accuracy/inputs.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace accuracy {
+
+constexpr Real pi = std::numbers::pi_v<Real>;
+
+inline Direction direction_at(Real cosine, Real sine, Real turns) {
+    return {sine * std::cos(2 * pi * turns), sine * std::sin(2 * pi * turns), cosine};
+}
+
+// The basis of Duff et al. (JCGT 6(1), 2017). For axis.z >= 0 it is v + k x v + k x (k x v) / (1 + cos) with k = z x
+// axis. For axis.z < 0 it is about -axis, with the second and third vectors negated.
+inline Direction turned_to(const glm::vec3 &float_axis, const Direction &vector) {
+    const bool down = float_axis.z < 0.0F;
+    const Direction axis = glm::normalize(Direction(float_axis)) * (down ? Real{-1} : Real{1});
+    const Direction v = down ? Direction(vector.x, -vector.y, -vector.z) : vector;
+    const Direction k(-axis.y, axis.x, 0);
+    const Direction k_v = glm::cross(k, v);
+    return v + k_v + glm::cross(k, k_v) / (1 + axis.z);
+}
+
+// The bounds below are absolute lengths of error vectors, with u = 2^-24. Division has 5 u (2.5 ulp), and sqrt = 1 /
+// inversesqrt has 4 u + 5 u.
+
+// sin_cos_turn has 4.5 ulp of at most u each (lib/kernel/accuracy.cpp). Each product adds one.
+inline Real azimuth_bound(Real sine) {
+    return sine * (4.5L * std::sqrt(Real{2}) + 1) * half_ulp;
+}
+
+// For rotate_to_axis: q (<= sine) has 2 u and its quotient 6 u, so 8 u sine. `along` (<= sqrt(2)) has u. x and y have
+// these errors, sqrt(2) u for the product and 0.7 u for sums. z has u for the product, 2 u sine for q and u / 2 for the
+// sum. The tangents' error is 2.5 times the axis's lack of unit length, times |v.x| + |v.y| <= sqrt(2) sine.
+inline Real rotation_bound(const glm::vec3 &axis, Real sine) {
+    const Real length = length_error(axis);
+    return sine * (8.3L * half_ulp + 2.5L * std::sqrt(Real{2}) * length) + length + 3.5L * half_ulp;
+}
+
+// `share` is the relative error of one_minus_cos. The polar angle has the error share h / sine. sine = sqrt(h (2 - h))
+// has u + 9 u, and 1 - h has u / 2.
+inline Real direction_about_bound(const glm::vec3 &axis, Real h, Real share) {
+    const Real sine = std::sqrt(h * (2 - h));
+    const Real polar = sine > 0 ? share * h / sine : 0;
+    return rotation_bound(axis, sine) + azimuth_bound(sine) + 10 * half_ulp * sine + polar + half_ulp / 2;
+}
+
+} // namespace accuracy

@@ -1,0 +1,223 @@
+// Compares distances to spheres and planes with long double.
+#include "distance_items.spv.h"
+#include "shaders/specialization.h"
+#include "tests/accuracy/direction.h"
+#include "tests/accuracy/evaluation.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <iterator>
+#include <string>
+
+namespace accuracy::intersect {
+
+namespace {
+
+// A value of Item::start.
+constexpr float anywhere = 0.0F;
+constexpr float leaving_outside = 1.0F;
+constexpr float leaving_inside = 2.0F;
+
+struct Item {
+    glm::vec3 center; // relative to the ray's start; the plane's normal
+    float radius;     // the plane's height
+    glm::vec3 direction;
+    float start;
+};
+
+struct Result {
+    float sphere, plane;
+    float blocks_before, blocks_behind; // for shadow rays that end before and behind the hit
+};
+
+constexpr float no_hit = 3.0e38F;
+
+// `impact` is in radii.
+Item passing_ray(Inputs &inputs, double distance, double radius, double impact, float start) {
+    const glm::dvec3 direction(inputs.direction());
+    const glm::dvec3 across =
+        glm::normalize(glm::cross(direction, glm::dvec3(inputs.direction()) + glm::dvec3(0, 0.01, 0.02)));
+    const double sine = std::min(impact * radius / distance, 1.0);
+    const double side = inputs.word() % 4 == 0 ? -1.0 : 1.0;
+    const glm::dvec3 center = distance * (side * std::sqrt(1.0 - sine * sine) * direction + sine * across);
+    return {glm::vec3(center), static_cast<float>(radius), glm::vec3(direction), start};
+}
+
+std::vector<Item> items() {
+    Inputs inputs(10);
+    std::vector<Item> items;
+    for (std::size_t i = 0; i < random_count; ++i) {
+        const double radius = inputs.log_uniform(1e-3, 1e3);
+        const double grazing = 1.0 + (inputs.number() < 0.5F ? -1.0 : 1.0) * inputs.log_uniform(1e-6, 0.5);
+        const float start = i % 8 < 6 ? anywhere : i % 8 == 6 ? leaving_outside : leaving_inside;
+        const double impact = i % 2 == 0 || start != anywhere ? inputs.number() : grazing;
+        const double distance = start != anywhere ? radius
+                                : i % 3 == 0      ? radius * inputs.number()
+                                                  : radius * (1.0 + inputs.log_uniform(1e-6, 1e6));
+        items.push_back(passing_ray(inputs, std::max(distance, 1e-6 * radius), radius, impact, start));
+    }
+    for (std::size_t i = 0; i < random_count / 16; ++i) {
+        const double radius = inputs.log_uniform(1e-3, 1e3);
+        items.push_back(passing_ray(inputs, radius * (1.0 - inputs.log_uniform(1e-9, 1e-5)), radius, 1.0, anywhere));
+    }
+    return items;
+}
+
+// `met` is 0 or 1, or -1 if float32 cannot decide.
+struct Exact {
+    int met;
+    Real distance;
+    Real bound;
+};
+
+// Let u = 2^-24, d = |center|, b = center . direction and l = |center - b direction|. b has 3 u d and the lack of unit
+// length. Across the ray, the error is u |b| + u l. Along the ray, the error of b counts squared. l^2 has 3 u, r^2 u,
+// the difference u and sqrt 9 u.
+Exact exact_sphere(const Item &item) {
+    const Direction center(item.center);
+    const Direction direction = glm::normalize(Direction(item.direction));
+    const Real r = item.radius;
+    const Real d = glm::length(center);
+    const Real b = glm::dot(center, direction);
+    const Real b_bound = d * (3 * half_ulp + length_error(item.direction));
+    if (item.start == leaving_outside)
+        return {0, no_hit, 1};
+    if (item.start == leaving_inside)
+        return {std::abs(b) > b_bound ? 1 : -1, 2 * std::abs(b), 2 * b_bound}; // along the surface
+    const Real l = glm::length(center - b * direction);
+    const Real along = 2 * b_bound;
+    const Real l_bound = half_ulp * (std::abs(b) + l);
+    const Real square = r * r - l * l;
+    const Real square_bound = 2 * l * l_bound + l_bound * l_bound + along * along + half_ulp * (4 * l * l + 2 * r * r);
+    const Real half_chord = std::sqrt(std::max<Real>(square, 0));
+    const Real bound = b_bound + 9 * half_ulp * half_chord + std::sqrt(std::max<Real>(square, 0) + square_bound) -
+                       std::sqrt(std::max<Real>(square - square_bound, 0)) + 2 * half_ulp * (std::abs(b) + half_chord);
+    if (std::abs(d * d - r * r) < 5 * half_ulp * d * d)
+        return {-1, 0, 0}; // on the surface
+    const bool outside = d > r;
+    const Real distance = outside ? b - half_chord : b + half_chord;
+    if (outside && std::abs(square) <= square_bound)
+        return {-1, 0, 0}; // grazing
+    const bool met = (square > 0 || !outside) && distance > 0;
+    return {std::abs(distance) <= bound ? -1 : static_cast<int>(met), distance, bound};
+}
+
+// For -h / (n . v), the dot product has 2 u |n| and the division 5 u.
+Exact exact_plane(const Item &item) {
+    const Direction normal(item.center);
+    const Real rate = glm::dot(normal, Direction(item.direction));
+    const Real rate_bound = 3 * half_ulp * glm::length(normal);
+    if (item.start != anywhere)
+        return {0, no_hit, 1};
+    if (std::abs(rate) <= 2 * rate_bound)
+        return {-1, 0, 0}; // parallel
+    const Real distance = -item.radius / rate;
+    return {distance > 0, distance, std::abs(distance) * (rate_bound / (std::abs(rate) - rate_bound) + 5 * half_ulp)};
+}
+
+bool agrees(const Exact &exact, float found) {
+    return exact.met < 0 || (found != no_hit) == (exact.met == 1);
+}
+
+void compare(Comparison &comparison, const Exact &exact, float found, Real unit, const Item &item) {
+    if (exact.met == 1 && found != no_hit)
+        comparison.add(found / unit, exact.distance / unit, exact.bound / unit, list(item));
+}
+
+// Negative control: a radius 1.001 times as large.
+Exact exact_larger_sphere(Item item) {
+    item.radius *= 1.001F;
+    return exact_sphere(item);
+}
+
+bool starts_outside(const Item &item) {
+    const Real d = glm::length(Direction(item.center));
+    const Real r = item.radius;
+    return item.start == leaving_outside || (item.start == anywhere && d * d - r * r > 5 * half_ulp * d * d);
+}
+
+struct Wrong {
+    std::size_t undecided = 0;
+    std::size_t found = 0;
+    std::size_t of_control = 0;
+    std::size_t shadows = 0; // wrong shadow rays
+};
+
+// Shadow rays end a tenth before or behind the hit. Hits nearer than 1e-4 |center|, 100 float32 errors, do not count.
+bool blocks_rightly(const Exact &exact, const Result &found, const Item &item) {
+    if (exact.met == 1 && exact.distance > 1e-4L * glm::length(Direction(item.center)))
+        return found.blocks_before == 0.0F && found.blocks_behind == 1.0F;
+    return exact.met != 0 || found.blocks_behind == 0.0F;
+}
+
+Wrong compare_all(const std::vector<Item> &all, std::uint32_t inside, const std::string &name) {
+    Comparison sphere("sphere_distance" + name, "of the center");
+    Comparison leaving("sphere_distance" + name + ", leaving", "of the radius");
+    Comparison plane("plane_distance" + name, "of itself");
+    std::vector<std::uint32_t> constants(pt::gpu::CONSTANT_COUNT);
+    constants[pt::gpu::ID_INSIDE] = inside;
+    constants[pt::gpu::ID_SPHERE_COUNT] = 1;
+    Probe probe(distance_items_spirv(), sizeof(ItemRange), constants);
+    const std::vector<Result> results = evaluate<Result>(probe, all);
+    Wrong wrong;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const Exact exact = exact_sphere(all[i]);
+        wrong.undecided += exact.met < 0 ? 1 : 0;
+        wrong.found += agrees(exact, results[i].sphere) ? 0 : 1;
+        wrong.shadows += blocks_rightly(exact, results[i], all[i]) ? 0 : 1;
+        EXPECT_FALSE(std::isnan(results[i].sphere)) << "item " << i;
+        wrong.of_control += agrees(exact_larger_sphere(all[i]), results[i].sphere) ? 0 : 1;
+        const Real distance = glm::length(Direction(all[i].center));
+        compare(all[i].start == anywhere ? sphere : leaving, exact, results[i].sphere, distance, all[i]);
+        const Exact on_plane = exact_plane(all[i]);
+        wrong.found += agrees(on_plane, results[i].plane) ? 0 : 1;
+        compare(plane, on_plane, results[i].plane, std::abs(on_plane.distance), all[i]);
+    }
+    sphere.finish();
+    if (inside == 1) // leaving on the outside, no ray hits its sphere
+        leaving.finish();
+    plane.finish();
+    return wrong;
+}
+
+TEST(AccuracyIntersect, OfDistances) {
+    const std::vector<Item> all = items();
+    const Wrong wrong = compare_all(all, 1, "");
+    EXPECT_EQ(wrong.found, 0U);
+    EXPECT_GT(wrong.of_control, 0U);
+    EXPECT_LT(wrong.undecided, all.size() / 8);
+}
+
+TEST(AccuracyIntersect, OfDistancesWherePathsAreNeverInside) {
+    std::vector<Item> outside;
+    std::ranges::copy_if(items(), std::back_inserter(outside), starts_outside);
+    EXPECT_GT(outside.size(), random_count / 2);
+    const Wrong wrong = compare_all(outside, 0, ", never inside");
+    EXPECT_EQ(wrong.found, 0U);
+    EXPECT_EQ(wrong.shadows, 0U);
+    EXPECT_GT(wrong.of_control, 0U);
+    EXPECT_LT(wrong.undecided, outside.size() / 4); // half of them graze
+}
+
+// Negative control: kernels without `inside` lose spheres from inside.
+TEST(AccuracyIntersect, WherePathsAreNeverInsideNoneMayBe) {
+    std::vector<Item> inside = items();
+    std::erase_if(inside, starts_outside);
+    std::erase_if(inside, [](const Item &item) { return exact_sphere(item).met != 1; });
+    std::vector<std::uint32_t> constants(pt::gpu::CONSTANT_COUNT);
+    constants[pt::gpu::ID_SPHERE_COUNT] = 1;
+    Probe probe(distance_items_spirv(), sizeof(ItemRange), constants);
+    const std::vector<Result> results = evaluate<Result>(probe, inside);
+    std::size_t lost = 0;
+    for (std::size_t i = 0; i < inside.size(); ++i) {
+        const Exact exact = exact_sphere(inside[i]);
+        const bool near_exact = std::abs(results[i].sphere - exact.distance) <= exact.bound;
+        lost += near_exact ? 0 : 1;
+    }
+    EXPECT_EQ(lost, inside.size());
+}
+
+} // namespace
+
+} // namespace accuracy::intersect

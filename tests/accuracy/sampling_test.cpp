@@ -1,0 +1,134 @@
+// Compares sampling.glsl with long double.
+#include "sampling_items.spv.h"
+#include "tests/accuracy/direction.h"
+#include "tests/accuracy/evaluation.h"
+
+#include <gtest/gtest.h>
+
+namespace accuracy::sampling {
+
+namespace {
+
+struct Item {
+    glm::vec3 axis;
+    float height; // 1 - cos of the cone direction
+    glm::vec2 numbers;
+    float density, other_density;
+};
+
+struct Result {
+    glm::vec4 about, cosine, hemisphere, weight;
+};
+
+std::vector<Item> items() {
+    Inputs inputs(1);
+    std::vector<Item> items;
+    // Caps have heights 1 - cos(angle) from 5e-15, an angle of 1e-7, to 2, the whole sphere. Squares or ratios of some
+    // densities overflow. Densities are within 2^+-126, where Vulkan bounds the error of division.
+    for (std::size_t i = 0; i < random_count; ++i)
+        items.push_back({inputs.direction(), static_cast<float>(inputs.log_uniform(5e-15, 2.0)),
+                         glm::vec2(inputs.number(), inputs.number()),
+                         static_cast<float>(inputs.log_uniform(1e-37, 8e37)),
+                         static_cast<float>(inputs.log_uniform(1e-37, 8e37))});
+    for (const float x : {0.0F, 0.25F, 0.5F, 1.0F - 0x1p-24F})
+        for (const float y : {0.0F, 0.5F - 0x1p-24F, 0.5F, 1.0F - 0x1p-24F})
+            items.push_back({{0, 0, 1}, 0.0F, {x, y}, 1.0F, 1.0F});
+    for (const float density : {1e-37F, 1e-20F, 1.0F, 1e20F, 8e37F})
+        for (const float other : {0.0F, 1e-37F, 1e-20F, 1.0F, 1e20F, 8e37F})
+            items.push_back({{0, 0, 1}, 0.0F, {0, 0}, density, other});
+    return items;
+}
+
+// u and 1 - u are exact, and their roots have 9 u each. Both rotations add to this.
+Real cosine_hemisphere_bound(const Item &item) {
+    const Real sine = std::sqrt(Real{item.numbers.x});
+    return rotation_bound(item.axis, sine) + azimuth_bound(sine) + 9 * half_ulp;
+}
+
+// 1 - 2 u is exact. The sine 2 sqrt(u (1 - u)) has u / 2 + 9 u.
+Real uniform_bound(Real sine) {
+    return azimuth_bound(sine) + 9.5L * half_ulp * sine + half_ulp / 2;
+}
+
+// Returns the nearer direction if the dot product (2 u and the lengths) cannot tell the side.
+Direction mirrored_up(const Direction &direction, const Item &item, const glm::vec4 &found) {
+    const Real cosine = glm::dot(direction, Direction(item.axis));
+    const bool undecided = std::abs(cosine) < 4 * half_ulp + uniform_bound(1);
+    const Real side = undecided ? glm::dot(direction, Direction(found)) : cosine;
+    return side < 0 ? -direction : direction;
+}
+
+// Uses the wedges between the square's diagonals. The kernel does not.
+Direction concentric(const glm::vec2 &numbers) {
+    const Real x = 2 * Real{numbers.x} - 1;
+    const Real y = 2 * Real{numbers.y} - 1;
+    const Real radius = std::max(std::abs(x), std::abs(y));
+    if (radius == 0)
+        return Direction(0);
+    const bool beside = std::abs(x) > std::abs(y);
+    const Real angle = beside ? pi / 4 * (y / x) : pi / 2 - pi / 4 * (x / y);
+    const Real side = (beside ? x : y) / radius;
+    return side * radius * Direction(std::cos(angle), std::sin(angle), 0);
+}
+
+// 2 u - 1 is exact for 24 bits. The ratio has 5 u, the angle 5 pi / 4 u and the product u / 2 per component.
+constexpr Real concentric_share = 5 * pi / 4 * half_ulp;
+
+class AccuracySampling : public testing::Test {
+protected:
+    std::vector<Item> items_ = items();
+    Probe probe_{sampling_items_spirv(), sizeof(ItemRange)};
+    std::vector<Result> results_ = evaluate<Result>(probe_, items_);
+};
+
+TEST_F(AccuracySampling, OfDirectionsAndWeights) {
+    Comparison about("direction_about", "length");
+    Comparison cosine("cosine_hemisphere_cos_sin", "length");
+    Comparison hemisphere("uniform_hemisphere_direction", "length");
+    Comparison weight("power_heuristic", "ulp");
+    Comparison disc("concentric_disc", "length");
+    for (std::size_t i = 0; i < items_.size(); ++i) {
+        const Item &item = items_[i];
+        const Result &result = results_[i];
+        const Real h = item.height;
+        const Real u = item.numbers.x;
+        const Real turns = item.numbers.y;
+        about.add(glm::vec3(result.about), turned_to(item.axis, direction_at(1 - h, std::sqrt(h * (2 - h)), turns)),
+                  direction_about_bound(item.axis, h, 0), list(item));
+        cosine.add(glm::vec3(result.cosine), turned_to(item.axis, direction_at(std::sqrt(1 - u), std::sqrt(u), turns)),
+                   cosine_hemisphere_bound(item), list(item));
+        const Real sine = 2 * std::sqrt(u * (1 - u));
+        hemisphere.add(glm::vec3(result.hemisphere),
+                       mirrored_up(direction_at(1 - 2 * u, sine, turns), item, result.hemisphere), uniform_bound(sine),
+                       list(item));
+        const Direction point = concentric(item.numbers);
+        disc.add(glm::vec3(result.weight.z, result.weight.w, 0.0F), point,
+                 glm::length(point) * (concentric_share + azimuth_bound(1)), list(item));
+        // In w = 1 / (1 + q^2), q has 5 u, q^2 11 u, the sum u and the division 2.5 ulp. Overflowing squares give 0.
+        const Real a = item.density;
+        const Real b = item.other_density;
+        add_in_ulp(weight, result.weight.x, a * a / (a * a + b * b), 14.5L, 0x1p-100L, list(item));
+    }
+    about.finish();
+    cosine.finish();
+    hemisphere.finish();
+    weight.finish();
+    disc.finish();
+}
+
+// Each weight has an error of 14.5 ulp of at most 2^-24.
+TEST_F(AccuracySampling, WeightsOfBothTechniquesSumToOne) {
+    std::vector<Item> exchanged = items_;
+    for (Item &item : exchanged)
+        std::swap(item.density, item.other_density);
+    const std::vector<Result> others = evaluate<Result>(probe_, exchanged);
+    Comparison sum("sum of two weights", "absolute");
+    for (std::size_t i = 0; i < items_.size(); ++i)
+        if (items_[i].other_density > 0.0F)
+            sum.add(Real{results_[i].weight.x} + Real{others[i].weight.x}, 1, 2 * 14.5L * half_ulp, list(items_[i]));
+    sum.finish();
+}
+
+} // namespace
+
+} // namespace accuracy::sampling

@@ -1,0 +1,183 @@
+// Calls from callbacks and other threads while a call is running.
+#include "lib/api/in_use.h"
+#include "tests/api/api_fixture.h"
+#include "tests/api/every_call.h"
+
+#include <pt/accuracy.h>
+#include <pt/devices.h>
+#include <pt/shaders.h>
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+#include <vector>
+
+namespace api {
+
+namespace {
+
+const std::string from_callback = "called from a callback of its own context";
+const std::string from_thread = "this context is in use by another thread";
+
+class InUseTest : public ApiTest {
+protected:
+    static void expect_all_refused(const Outcomes &outcomes, const std::string &message) {
+        expect_every_call(outcomes, "PT_ERROR_INVALID_STATE: " + message);
+    }
+
+    void accumulate_and(const std::function<void()> &action, pt_result expected = PT_OK) {
+        struct Once {
+            const std::function<void()> &action;
+            bool done = false;
+            static std::int32_t progress(void *user, double /*fraction*/) {
+                auto *once = static_cast<Once *>(user);
+                if (!once->done) {
+                    once->done = true;
+                    once->action();
+                }
+                return 0;
+            }
+        } once{action};
+        const pt_accumulate_info info{sizeof info, 1, &Once::progress, &once, 0, 0, 0, nullptr, 0, 0};
+        EXPECT_EQ(pt_accumulate(context(), &info), expected) << message();
+        EXPECT_TRUE(once.done);
+    }
+};
+
+TEST_F(InUseTest, CallsFromACallbackAreRefused) {
+    set_all();
+    Outcomes inside;
+    accumulate_and([&] { inside = outcomes_of_every_call(context()); });
+    expect_all_refused(inside, from_callback);
+    EXPECT_EQ(message(), from_callback) << "the last call that failed";
+    expect_image(1);
+    EXPECT_EQ(message(), "") << "that was refused before a call that was not";
+}
+
+TEST_F(InUseTest, CallsFromACallbackOfASceneAreRefused) {
+    set_all();
+    struct Inside {
+        pt_context *context;
+        Outcomes outcomes = {};
+        static std::int32_t progress(void *user, double /*fraction*/) {
+            auto *const inside = static_cast<Inside *>(user);
+            inside->outcomes = outcomes_of_every_call(inside->context);
+            return 0;
+        }
+    } inside{context()};
+    pt_scene scene = valid_scene();
+    scene.progress = &Inside::progress;
+    scene.progress_user = &inside;
+    EXPECT_EQ(pt_set_scene(context(), &scene), PT_OK) << message();
+    expect_all_refused(inside.outcomes, from_callback);
+    accumulate(1);
+    expect_image(1);
+}
+
+TEST_F(InUseTest, CallsFromAnotherThreadAreRefused) {
+    set_all();
+    Outcomes elsewhere;
+    std::string before, after, here;
+    accumulate_and([&] {
+        std::thread([&] {
+            before = pt_last_error(context());
+            elsewhere = outcomes_of_every_call(context());
+        }).join();
+        here = message();
+    });
+    expect_all_refused(elsewhere, from_thread);
+    EXPECT_EQ(before, from_thread) << "not even the message is to be had";
+    EXPECT_EQ(here, "") << "this thread's calls have not failed";
+    expect_image(1);
+    EXPECT_EQ(message(), "");
+}
+
+TEST_F(InUseTest, TheMessageIsThatOfTheLastCallThatFailed) {
+    set_all();
+    std::string inside;
+    const auto fail = [&] {
+        EXPECT_EQ(pt_set_scene(context(), nullptr), PT_ERROR_INVALID_STATE);
+        inside = message();
+        throw std::runtime_error("thrown by a callback");
+    };
+    accumulate_and(fail, PT_ERROR_INTERNAL);
+    EXPECT_EQ(inside, from_callback);
+    EXPECT_EQ(message(), "thrown by a callback");
+    std::thread([&] { EXPECT_EQ(message(), "thrown by a callback"); }).join();
+}
+
+// A child process lacks the driver's threads, so calls would wait forever.
+TEST_F(InUseTest, AChildOfForkIsRefused) {
+    set_all();
+    const std::string not_ours = "this context belongs to the process that this one was forked from";
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+        bool all_refused = true;
+        for (const auto &[call, outcome] : outcomes_of_every_call(context()))
+            all_refused = all_refused && outcome == "PT_ERROR_INVALID_STATE: " + not_ours;
+        const bool cancel_refused = pt_cancel(context()) == PT_ERROR_INVALID_STATE;
+        pt_destroy(context());
+        _exit(all_refused && cancel_refused && pt_last_error(context()) == not_ours ? 0 : 1);
+    }
+    int status = -1;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    EXPECT_EQ(status, 0);
+    accumulate(1);
+    expect_image(1);
+}
+
+using Lines = std::vector<std::string>;
+
+struct EagerLog {
+    Lines lines;
+    pt_context *context = nullptr;
+
+    static void receive(void *user, int32_t level, const char *line) {
+        auto *log = static_cast<EagerLog *>(user);
+        if (level == PT_LOG_ERROR)
+            log->lines.push_back(line);
+        pt_destroy(log->context);
+    }
+};
+
+TEST_F(InUseTest, AContextInUseIsNotDestroyed) {
+    EagerLog log;
+    Context other = create_context([&](pt_create_info &info) {
+        info.flags = 0;
+        info.log = &EagerLog::receive;
+        info.log_user = &log;
+    });
+    ASSERT_NO_FATAL_FAILURE(api::set_all(other.get()));
+    log.context = other.get();
+    const pt_accumulate_info info{sizeof info,
+                                  1,
+                                  [](void *user, double) -> std::int32_t {
+                                      auto *context = static_cast<pt_context *>(user);
+                                      pt_destroy(context);
+                                      EXPECT_EQ(pt_last_error(context), from_callback);
+                                      std::thread([&] { pt_destroy(context); }).join();
+                                      return 1;
+                                  },
+                                  other.get(),
+                                  0,
+                                  0,
+                                  0,
+                                  nullptr,
+                                  0,
+                                  0};
+    EXPECT_GE(pt_accumulate(other.get(), &info), PT_OK) << pt_last_error(other.get());
+    log.context = nullptr;
+    EXPECT_EQ(log.lines, (Lines{"pt_destroy: " + from_callback + ", which stays",
+                                "pt_destroy: " + from_thread + ", which stays"}));
+    const pt_accumulate_info more = samples(1);
+    EXPECT_EQ(pt_accumulate(other.get(), &more), PT_OK) << pt_last_error(other.get());
+}
+
+} // namespace
+
+} // namespace api

@@ -1,0 +1,265 @@
+// pt_reload_shaders() replaces kernels only on success, and all samples come from one kernel.
+#include "lib/render/renderer.h"
+#include "lib/scene/scene.h"
+#include "tests/api/api_fixture.h"
+#include "tests/api/shader_folder.h"
+#include "tests/support/context_calls.h"
+#include "tests/support/shared_context.h"
+
+#include "tests/support/checked_scene_of.h"
+#include "tests/support/expected_error.h"
+
+#include <pt/shaders.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#ifdef __SANITIZE_ADDRESS__
+#include <sanitizer/lsan_interface.h>
+#endif
+
+namespace api {
+
+namespace {
+
+class ReloadTest : public ApiTest {
+protected:
+    void SetUp() override {
+        own_ = create_context([&](pt_create_info &info) { info.shader_dir = folder_.c_str(); });
+        ApiTest::SetUp();
+        ASSERT_TRUE(own_);
+        set_all_on(own_.get());
+    }
+
+    void TearDown() override {
+        own_.reset();
+        ApiTest::TearDown();
+    }
+
+    pt_context *own() const { return own_.get(); }
+    std::string own_message() const { return pt_last_error(own()); }
+
+    static void set_all_on(pt_context *on) {
+        const pt_scene scene = valid_scene();
+        const pt_camera camera = valid_camera();
+        const pt_render render = valid_render();
+        set_picture(on, scene, camera, render);
+    }
+
+    static uint32_t sample_count_of(pt_context *on) { return stats_of(on).sample_count; }
+
+    // `factor` multiplies the scene's radiance.
+    static void expect_samples(pt_context *on, uint32_t count, float factor) {
+        EXPECT_EQ(sample_count_of(on), count);
+        std::vector<float> pixels(width * height * 3, -1.0F);
+        const pt_image target = tight_image(pixels);
+        ASSERT_EQ(pt_readback(on, &target), PT_OK) << pt_last_error(on);
+        for (std::size_t i = 0; i < pixels.size(); ++i)
+            ASSERT_EQ(pixels[i], factor * radiance[i % 3]) << "value " << i;
+    }
+
+    void expect_refusal(const std::string &part) {
+        EXPECT_EQ(pt_reload_shaders(own()), PT_ERROR_SHADER);
+        EXPECT_NE(own_message().find(part), std::string::npos) << own_message() << "\nmust contain\n" << part;
+    }
+
+    // This is exact, because powers of two scale sums without rounding.
+    void double_the_radiance() const {
+        shaders_.replace("pathtrace.comp", "* held.film_scale", "* (2.0 * held.film_scale)");
+    }
+
+    ShaderFolder shaders_;
+
+private:
+    std::string folder_ = shaders_.path();
+    Context own_;
+};
+
+TEST_F(ReloadTest, AContextWithoutAFolderHasNothingToReload) {
+    set_all();
+    accumulate(2);
+    expect_failure(pt_reload_shaders(context()), PT_ERROR_INVALID_STATE,
+                   "no shader_dir: the kernels are those in the library");
+    expect_image(2);
+    EXPECT_EQ(pt_reload_shaders(nullptr), PT_ERROR_INVALID_ARGUMENT);
+}
+
+TEST_F(ReloadTest, TheSameKernelsKeepTheSamples) {
+    accumulate_on(own(), 3);
+    shaders_.replace("pathtrace.comp", "void main()", "// a remark\nvoid main()");
+    ASSERT_EQ(pt_reload_shaders(own()), PT_OK) << own_message();
+    expect_samples(own(), 3, 1);
+    accumulate_on(own(), 2);
+    expect_samples(own(), 5, 1);
+}
+
+TEST_F(ReloadTest, OtherKernelsDiscardTheSamples) {
+    accumulate_on(own(), 3);
+    double_the_radiance();
+    expect_samples(own(), 3, 1);
+    ASSERT_EQ(pt_reload_shaders(own()), PT_OK) << own_message();
+    EXPECT_EQ(sample_count_of(own()), 0U);
+    accumulate_on(own(), 2);
+    expect_samples(own(), 2, 2);
+    set_all_on(own());
+    accumulate_on(own(), 1);
+    expect_samples(own(), 1, 2);
+}
+
+TEST_F(ReloadTest, AContextIsCreatedWithTheFolderAsItIs) {
+    double_the_radiance();
+    const std::string folder = shaders_.path();
+    const Context late = create_context([&](pt_create_info &info) { info.shader_dir = folder.c_str(); });
+    ASSERT_TRUE(late);
+    set_all_on(late.get());
+    accumulate_on(late.get(), 1);
+    expect_samples(late.get(), 1, 2);
+    accumulate_on(own(), 1);
+    expect_samples(own(), 1, 1);
+}
+
+TEST_F(ReloadTest, AContextIsNotCreatedOfWhatDoesNotCompile) {
+    const std::string place = shaders_.break_film();
+    const std::string folder = shaders_.path();
+    pt_create_info info{};
+    info.struct_size = sizeof info;
+    info.shader_dir = folder.c_str();
+    pt_context *created = nullptr;
+    EXPECT_EQ(pt_create(&info, &created), PT_ERROR_SHADER);
+    EXPECT_EQ(created, nullptr);
+    EXPECT_NE(std::string(pt_last_error(nullptr)).find(place), std::string::npos) << pt_last_error(nullptr);
+}
+
+TEST_F(ReloadTest, AFailureKeepsKernelsAndSamples) {
+    accumulate_on(own(), 3);
+    double_the_radiance();
+    const std::string film = shaders_.read("film.glsl");
+    expect_refusal(shaders_.break_film());
+    expect_samples(own(), 3, 1);
+    accumulate_on(own(), 2);
+    expect_samples(own(), 5, 1);
+    set_all_on(own());
+    accumulate_on(own(), 1);
+    expect_samples(own(), 1, 1);
+
+    shaders_.write("film.glsl", film);
+    ASSERT_EQ(pt_reload_shaders(own()), PT_OK) << own_message();
+    accumulate_on(own(), 1);
+    expect_samples(own(), 1, 2);
+}
+
+TEST_F(ReloadTest, AFolderMayVanishAndComeBack) {
+    accumulate_on(own(), 3);
+    const std::string aside = shaders_.path() + "-aside";
+    std::filesystem::rename(shaders_.path(), aside);
+    expect_refusal("pathtrace.comp: No such file or directory");
+    accumulate_on(own(), 1);
+    expect_samples(own(), 4, 1);
+    std::filesystem::rename(aside, shaders_.path());
+    ASSERT_EQ(pt_reload_shaders(own()), PT_OK) << own_message();
+    expect_samples(own(), 4, 1);
+}
+
+TEST_F(ReloadTest, TheAccuracyIsThatOfTheFolder) {
+    const auto worst_of_sqrt = [&] {
+        std::vector<pt_function_accuracy> rows(100);
+        uint32_t count = 100;
+        EXPECT_EQ(pt_get_accuracy(own(), rows.data(), &count), PT_OK) << own_message();
+        const auto row = std::ranges::find_if(
+            rows, [](const pt_function_accuracy &each) { return std::string(each.name).starts_with("square root"); });
+        return row->worst_error;
+    };
+    EXPECT_LT(worst_of_sqrt(), 6.5);
+    shaders_.replace("accuracy.comp", "return sqrt(x)", "return x");
+    ASSERT_EQ(pt_reload_shaders(own()), PT_OK) << own_message();
+    EXPECT_GT(worst_of_sqrt(), 1e6);
+}
+
+int32_t stop(void * /*user*/, double /*fraction*/) {
+    return 1;
+}
+
+TEST_F(ReloadTest, WorkUnderWayGoesOnOrIsDiscarded) {
+    const std::string folder = shaders_.path();
+    const Context slow = create_context([&](pt_create_info &info) {
+        info.shader_dir = folder.c_str();
+        info.submit_milliseconds = 1;
+    });
+    set_all_on(slow.get());
+    const pt_accumulate_info stopped{sizeof stopped, 100'000'000, &stop, nullptr, 0, 0, 0, nullptr, 0, 0};
+    EXPECT_EQ(pt_accumulate(slow.get(), &stopped), PT_CANCELLED);
+    const uint32_t before = sample_count_of(slow.get());
+    ASSERT_EQ(pt_reload_shaders(slow.get()), PT_OK);
+    accumulate_on(slow.get(), 1);
+    expect_samples(slow.get(), before + 1, 1);
+    EXPECT_EQ(pt_accumulate(slow.get(), &stopped), PT_CANCELLED);
+    double_the_radiance();
+    ASSERT_EQ(pt_reload_shaders(slow.get()), PT_OK);
+    accumulate_on(slow.get(), 2);
+    expect_samples(slow.get(), 2, 2);
+}
+
+TEST_F(ReloadTest, AllDevicesGetTheKernels) {
+    const std::string folder = shaders_.path();
+    const Context shared = create_context(
+        [&](pt_create_info &info) {
+            info.shader_dir = folder.c_str();
+            info.submit_milliseconds = 1;
+        },
+        [](const pt_create_info *info, pt_context **context) { return create_shared(2, *info, context); });
+    set_all_on(shared.get());
+    accumulate_on(shared.get(), 64);
+    expect_samples(shared.get(), 64, 1);
+    double_the_radiance();
+    ASSERT_EQ(pt_reload_shaders(shared.get()), PT_OK);
+    accumulate_on(shared.get(), 64);
+    expect_samples(shared.get(), 64, 2);
+}
+
+// lavapipe 22.3.6 leaks when it refuses a kernel.
+#ifdef __SANITIZE_ADDRESS__
+using DriverMayLeak = __lsan::ScopedDisabler;
+#else
+struct DriverMayLeak {};
+#endif
+
+// Every driver rejects a renamed entry point. The validation layer would complain first.
+TEST_F(ReloadTest, KernelsThatTheDriverRefusesAreNotTaken) {
+    pt::CreateSettings settings;
+    settings.device = std::getenv("PT_TEST_DEVICE") ? std::getenv("PT_TEST_DEVICE") : "";
+    pt::Renderer renderer(settings);
+    pt::WorkProgress nobody;
+    renderer.set_scene(checked_scene_of(valid_scene()), nobody);
+    renderer.set_camera(pt::validated_camera(valid_camera()));
+    renderer.set_render(pt::validated_render(valid_render()));
+    const auto take_a_sample = [&] {
+        pt_accumulate_info one_sample{};
+        one_sample.sample_count = 1;
+        EXPECT_EQ(renderer.accumulate(one_sample), PT_OK);
+    };
+    take_a_sample();
+
+    constexpr uint32_t main_word = 0x6e69616d; // "main", little-endian
+    pt::KernelCode bad = pt::embedded_code();
+    std::vector<std::vector<uint32_t>> words = *bad.words;
+    const auto entry = std::ranges::find(words.front(), main_word);
+    ASSERT_NE(entry, words.front().end());
+    *entry = 0x6e69616e;
+    bad.words = std::make_shared<const std::vector<std::vector<uint32_t>>>(words);
+    bad.pathtrace = bad.words->front();
+    const pt::Error error = error_of([&] {
+        [[maybe_unused]] const DriverMayLeak allowance{};
+        renderer.set_code(bad);
+    });
+    EXPECT_EQ(pt::result_name(error.code()), std::string("PT_ERROR_SHADER")) << error.what();
+    EXPECT_EQ(renderer.stats().sample_count, 1U);
+    take_a_sample();
+    EXPECT_EQ(renderer.stats().sample_count, 2U);
+}
+
+} // namespace
+
+} // namespace api

@@ -1,0 +1,90 @@
+// The rules of render settings and their defaults.
+#include "lib/scene/render_settings.h"
+
+#include "tests/geometry/refusals.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace {
+
+pt_render valid_render() {
+    pt_render render{};
+    render.struct_size = sizeof render;
+    render.width = 640;
+    render.height = 480;
+    return render;
+}
+
+std::string render_outcome(const pt_render &render) {
+    return outcome_of(PT_ERROR_INVALID_ARGUMENT, [&] { pt::validated_render(render); });
+}
+
+TEST(RenderSettings, BrokenRulesAreNamed) {
+    expect_refusals<pt_render>(valid_render(), render_outcome,
+                               {{[](pt_render &r) {
+                                     r.width = r.height = 0;
+                                     r.max_path_length = 1025;
+                                     r.estimator = 6;
+                                     r.sampler = 5;
+                                     r.reserved = 1;
+                                 },
+                                 "render.width = 0: must be >= 1\n"
+                                 "render.height = 0: must be >= 1\n"
+                                 "render.max_path_length = 1025: must be <= 1024\n"
+                                 "render.estimator = 6: must be a PT_ESTIMATOR_* of pt.h\n"
+                                 "render.sampler = 5: must be a PT_SAMPLER_* of pt.h\n"
+                                 "render.reserved = 1: must be 0"},
+                                {[](pt_render &r) { r.width = r.height = 65536; },
+                                 "render.width * height = 4294967296: must be <= 4294967295"},
+                                {[](pt_render &r) { r.width = r.height = 4294967295U; },
+                                 "render.width * height = 18446744065119617025: must be <= 4294967295"},
+                                {[](pt_render &r) { r.first_row = 480; }, "render.first_row = 480: must be < height"},
+                                {[](pt_render &r) { r.first_row = 479, r.row_count = 2; },
+                                 "render.first_row + row_count = 481: must be <= height"}});
+}
+
+TEST(RenderSettings, HaveTheDefaultsOfTheHeader) {
+    const pt::RenderSettings settings = pt::validated_render(valid_render());
+    EXPECT_EQ(settings.width, 640U);
+    EXPECT_EQ(settings.height, 480U);
+    EXPECT_EQ(settings.max_path_length, 6U);
+    EXPECT_EQ(settings.seed, 0U);
+    EXPECT_EQ(settings.first_sample, 0U);
+    EXPECT_EQ(settings.estimator, uint32_t{PT_ESTIMATOR_MIS});
+    EXPECT_EQ(settings.sampler, uint32_t{PT_SAMPLER_SOBOL});
+    EXPECT_EQ(settings.first_row, 0U);
+    EXPECT_EQ(settings.row_count, 480U);
+}
+
+TEST(RenderSettings, TakeWhatIsSet) {
+    const pt_render render{sizeof(pt_render), 3, 7, 1, 0x123456789abcdef0U, 4294967295U, PT_ESTIMATOR_UNIFORM,
+                           PT_SAMPLER_HALTON, 0, 2, 4};
+    const pt::RenderSettings settings = pt::validated_render(render);
+    EXPECT_EQ(settings.width, 3U);
+    EXPECT_EQ(settings.height, 7U);
+    EXPECT_EQ(settings.max_path_length, 1U);
+    EXPECT_EQ(settings.seed, 0x123456789abcdef0U);
+    EXPECT_EQ(settings.first_sample, 4294967295U);
+    EXPECT_EQ(settings.estimator, uint32_t{PT_ESTIMATOR_UNIFORM});
+    EXPECT_EQ(settings.sampler, uint32_t{PT_SAMPLER_HALTON});
+    EXPECT_EQ(settings.first_row, 2U);
+    EXPECT_EQ(settings.row_count, 4U);
+}
+
+TEST(RenderSettings, AcceptExtremes) {
+    pt_render render = valid_render();
+    render.width = render.height = 1;
+    render.max_path_length = 1024;
+    render.estimator = PT_ESTIMATOR_MIS;
+    EXPECT_EQ(render_outcome(render), "accepted");
+    render.width = 65535;
+    render.height = 65537;
+    EXPECT_EQ(render_outcome(render), "accepted");
+    render.width = 4294967295U;
+    render.height = 1;
+    EXPECT_EQ(render_outcome(render), "accepted");
+}
+
+} // namespace

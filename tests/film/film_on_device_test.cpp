@@ -1,0 +1,291 @@
+// Compares the device's sums with wider integers.
+#include "lib/kernel/device_film.h"
+
+#include "film_sums.spv.h"
+#include "tests/kernel/probe.h"
+#include "tests/support/expected_error.h"
+#include "tests/vulkan/device_fixture.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cfenv>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <span>
+#include <vector>
+
+namespace {
+
+__extension__ using Wide = unsigned __int128;
+
+constexpr std::uint32_t pixels = 1000;
+constexpr std::uint32_t per_pixel = 40;
+
+Wide multiple_of_2_to_minus_60(float value) {
+    return static_cast<Wide>(std::nearbyint(std::ldexp(double{value}, 60)));
+}
+
+bool acceptable(const glm::vec4 &sample) {
+    bool good = true;
+    for (int channel = 0; channel < 3; ++channel)
+        good = good && !std::signbit(sample[channel]) && sample[channel] < 0x1p28F;
+    return good;
+}
+
+std::vector<glm::vec4> awkward_samples() {
+    std::mt19937 generator(1);
+    std::uniform_real_distribution<float> exponent(-60.0F, 28.0F);
+    std::uniform_int_distribution<int> kind(0, 19);
+    const float special[] = {0.0F,
+                             -0.0F,
+                             0x1p-149F,
+                             0x1p-126F,
+                             0x1p-60F,
+                             0x1p-61F,
+                             0x1.8p-60F,
+                             0x1p27F,
+                             0x1.fffffep27F,
+                             0x1p28F,
+                             -1.0F,
+                             std::numeric_limits<float>::infinity(),
+                             std::numeric_limits<float>::quiet_NaN()};
+    std::vector<glm::vec4> samples(pixels * per_pixel);
+    for (glm::vec4 &sample : samples)
+        for (int channel = 0; channel < 3; ++channel)
+            sample[channel] =
+                kind(generator) == 0 ? special[generator() % std::size(special)] : std::exp2(exponent(generator));
+    std::fill_n(samples.begin(), per_pixel, glm::vec4(0x1.fffffep27F));
+    return samples;
+}
+
+std::uint32_t word(const std::vector<std::uint32_t> &film, std::size_t plane, std::size_t pixel) {
+    return film[(pt::gpu::FILM_WORDS + plane) * pixels + pixel];
+}
+
+TEST(Film, DeviceSumsAreExact) {
+    struct {
+        std::uint32_t per_pixel, count, film_part;
+    } push{per_pixel, pixels, 1};
+    const std::vector<glm::vec4> samples = awkward_samples();
+    Probe probe(film_sums_spirv(), sizeof push);
+    const std::vector<std::uint32_t> film =
+        probe.run<std::uint32_t>(samples, pixels * pt::PixelSums::words_per_pixel, push, pixels);
+    EXPECT_TRUE(std::all_of(film.begin(), film.begin() + pixels * pt::gpu::FILM_WORDS,
+                            [](std::uint32_t value) { return value == 0; }));
+
+    for (std::uint32_t pixel = 0; pixel < pixels; ++pixel) {
+        Wide sums[3] = {};
+        std::uint32_t accepted = 0;
+        for (std::uint32_t i = 0; i < per_pixel; ++i) {
+            const glm::vec4 &sample = samples[pixel * per_pixel + i];
+            if (!acceptable(sample))
+                continue;
+            ++accepted;
+            for (int channel = 0; channel < 3; ++channel)
+                sums[channel] += multiple_of_2_to_minus_60(sample[channel]);
+        }
+        ASSERT_EQ(word(film, pt::gpu::FILM_ACCEPTED, pixel), accepted);
+        ASSERT_EQ(word(film, pt::gpu::FILM_REJECTED, pixel), per_pixel - accepted);
+        for (std::size_t channel = 0; channel < 3; ++channel)
+            for (std::size_t i = 0; i < 4; ++i)
+                ASSERT_EQ(word(film, 4 * channel + i, pixel), static_cast<std::uint32_t>(sums[channel] >> (32 * i)))
+                    << "pixel " << pixel << " channel " << channel << " word " << i;
+    }
+}
+
+TEST(Film, WindowsHoldTheMostSamplesThatAnInvocationGathers) {
+    struct {
+        std::uint32_t per_pixel, count, film_part;
+    } push{pt::gpu::FILM_MAX_GATHERED, 4, 0};
+    const float extremes[] = {0x1.fffffep27F, 0x1.fffffp4F, 0x1.00001p5F, 0x1.fffffep-18F};
+    std::vector<glm::vec4> samples;
+    for (const float extreme : extremes)
+        samples.insert(samples.end(), push.per_pixel, glm::vec4(extreme));
+    const auto film = Probe(film_sums_spirv(), sizeof push)
+                          .run<std::uint32_t>(samples, push.count * pt::PixelSums::words_per_pixel, push, push.count);
+    for (std::uint32_t pixel = 0; pixel < push.count; ++pixel) {
+        const Wide sum = push.per_pixel * multiple_of_2_to_minus_60(extremes[pixel]);
+        for (std::size_t i = 0; i < 4; ++i)
+            EXPECT_EQ(film[i * push.count + pixel], static_cast<std::uint32_t>(sum >> (32 * i))) << extremes[pixel];
+    }
+}
+
+// Vulkan allows rounding towards zero. llvmpipe's threads inherit the host's mode.
+class FilmRoundedToZero : public VulkanFixture {
+protected:
+    void SetUp() override {
+        std::fesetround(FE_TOWARDZERO);
+        VulkanFixture::SetUp();
+    }
+    void TearDown() override {
+        VulkanFixture::TearDown();
+        std::fesetround(FE_TONEAREST);
+    }
+
+    std::vector<std::uint32_t> sum(float value, std::uint32_t sample_count) {
+        using pt::vulkan::Buffer;
+        using pt::vulkan::BufferUse;
+        constexpr pt::vulkan::Binding bindings[] = {{0, vk::DescriptorType::eUniformBuffer}, {1}, {2}, {3}};
+        const std::array<std::uint32_t, 3> push = {sample_count, 1, 0};
+        const std::vector<glm::vec4> samples(sample_count, glm::vec4(value));
+        std::vector<std::uint32_t> words(pt::PixelSums::words_per_pixel);
+        const pt::vulkan::ComputePipeline pipeline(device(), film_sums_spirv(), bindings, sizeof push, {});
+        Buffer unused(device(), BufferUse::UniformOrStorage, 256, "unused");
+        Buffer film(device(), BufferUse::Storage, words.size() * sizeof(std::uint32_t), "film");
+        Buffer input(device(), BufferUse::Storage, samples.size() * sizeof(glm::vec4), "samples");
+        film.upload(std::as_bytes(std::span(words)), 0);
+        input.upload(std::as_bytes(std::span(samples)), 0);
+        const pt::vulkan::DescriptorSet set =
+            pipeline.bind(std::array<pt::vulkan::BufferRange, 4>{unused, unused, film, input});
+        device().submit([&](const vk::raii::CommandBuffer &commands) {
+            pipeline.dispatch(commands, set, std::as_bytes(std::span(push)), 1);
+        });
+        film.download(std::as_writable_bytes(std::span(words)), 0);
+        words.resize(pt::gpu::FILM_SUM_WORDS);
+        return words;
+    }
+
+    static std::vector<std::uint32_t> exact_sum(float value, std::uint32_t sample_count) {
+        const Wide sum = sample_count * multiple_of_2_to_minus_60(value);
+        std::vector<std::uint32_t> words;
+        for (std::uint32_t i = 0; i < pt::gpu::FILM_SUM_WORDS; ++i)
+            words.push_back(static_cast<std::uint32_t>(sum >> (32 * i)));
+        return words;
+    }
+};
+
+// The remainder for the next window is nearly a whole unit. Negative control: as many samples as half units would
+// allow.
+TEST_F(FilmRoundedToZero, WindowsHoldTheMostSamplesThatAnInvocationGathers) {
+    if (device().info().kind != PT_DEVICE_CPU)
+        GTEST_SKIP() << "a GPU does not round as this thread does";
+    for (const float value : {0x1.fffffep5F, 0x1.fffffep-17F}) {
+        EXPECT_EQ(sum(value, pt::gpu::FILM_MAX_GATHERED), exact_sum(value, pt::gpu::FILM_MAX_GATHERED)) << value;
+        EXPECT_NE(sum(value, 1023), exact_sum(value, 1023)) << value;
+    }
+}
+
+struct Part {
+    std::uint32_t red;
+    std::uint32_t accepted;
+    std::uint32_t rejected;
+};
+
+pt::PixelSums one_pixel(const Part &older, const Part &newer) {
+    pt::PixelSums sums;
+    sums.resize(1);
+    const auto set = [&](const Part &part, pt::FilmPart index) {
+        for (std::size_t plane = 0; plane < pt::gpu::FILM_WORDS; ++plane)
+            sums.plane(index, plane)[0] = 0;
+        const std::uint64_t sum = std::uint64_t{part.red} << (pt::gpu::FILM_FRACTION_BITS - 32);
+        sums.plane(index, 1)[0] = static_cast<std::uint32_t>(sum);
+        sums.plane(index, 2)[0] = static_cast<std::uint32_t>(sum >> 32);
+        sums.plane(index, pt::gpu::FILM_ACCEPTED)[0] = part.accepted;
+        sums.plane(index, pt::gpu::FILM_REJECTED)[0] = part.rejected;
+    };
+    set(older, pt::older_part);
+    set(newer, pt::newer_part);
+    return sums;
+}
+
+TEST(Film, LostSamplesAreAnError) {
+    const pt::Error error = error_of([] {
+        pt::require_samples(one_pixel({9, 4, 0}, {9, 3, 0}).samples_of(0), {4, 4});
+    });
+    EXPECT_EQ(error.code(), PT_ERROR_INTERNAL);
+    EXPECT_STREQ(error.what(), "the driver did 3 of 4 samples of a pixel in one part of the film");
+    // A surplus in the other part does not compensate.
+    EXPECT_EQ(error_of([] {
+                  pt::require_samples(one_pixel({9, 5, 0}, {9, 3, 0}).samples_of(0), {4, 4});
+              }).code(),
+              PT_ERROR_INTERNAL);
+}
+
+TEST(Film, SumsAddAndFold) {
+    const auto whole = [](std::uint32_t word) {
+        pt::PixelSums sums = one_pixel({0, 1, 2}, {0, 3, 4});
+        for (std::size_t plane = 0; plane < 3; ++plane)
+            sums.plane(pt::older_part, plane)[0] = word;
+        return sums;
+    };
+    pt::PixelSums sums = whole(UINT32_MAX);
+    pt::PixelSums one = one_pixel({0, 0, 0}, {0, 0, 0});
+    one.plane(pt::older_part, 0)[0] = 1;
+    sums.add(one);
+    pt::PixelSums expected = whole(0);
+    expected.plane(pt::older_part, 3)[0] = 1;
+    EXPECT_TRUE(sums == expected);
+    sums.fold_into(pt::newer_part, 0, 1);
+    EXPECT_EQ(sums.plane(pt::newer_part, 3)[0], 1U);
+    pt::require_samples(sums.samples_of(0), {0, 10});
+}
+
+TEST(Film, SumsThatNoSamplesHaveAreSeen) {
+    EXPECT_TRUE(one_pixel({9, 1, 0}, {0, 0, 1}).holds({1, 1}));
+    EXPECT_FALSE(one_pixel({9, 1, 0}, {0, 0, 1}).holds({1, 2}));
+    EXPECT_FALSE(one_pixel({9, 0, 1}, {0, 0, 1}).holds({1, 1})) << "light without accepted samples";
+    pt::PixelSums bright = one_pixel({0, 3, 0}, {0, 1, 0});
+    bright.plane(pt::older_part, 2)[0] = 3U << (pt::gpu::FILM_MAX_EXPONENT + pt::gpu::FILM_FRACTION_BITS - 64);
+    EXPECT_TRUE(bright.holds({3, 1}));
+    bright.plane(pt::older_part, 0)[0] = 1;
+    EXPECT_FALSE(bright.holds({3, 1}));
+}
+
+using FilmStrips = VulkanFixture;
+
+TEST_F(FilmStrips, AreReadAsOne) {
+    constexpr std::uint32_t film_pixels = 16;
+    pt::DeviceFilm film(device(), 4, 4, 6);
+    ASSERT_EQ(film.strips().size(), 3U);
+    for (pt::DeviceFilm::Strip &strip : film.strips()) {
+        std::vector<std::uint32_t> words;
+        for (std::uint32_t plane = 0; plane < pt::PixelSums::words_per_pixel; ++plane)
+            for (std::uint32_t i = 0; i < strip.pixel_count; ++i)
+                words.push_back(100 * plane + strip.first_pixel + i);
+        strip.words.upload(std::as_bytes(std::span(words)), 0);
+    }
+    for (std::uint32_t first = 0; first < film_pixels; ++first)
+        for (std::uint32_t count = 1; first + count <= film_pixels; ++count) {
+            pt::PixelSums sums;
+            sums.resize(count);
+            film.read(first, sums);
+            for (std::uint32_t plane = 0; plane < pt::PixelSums::words_per_pixel; ++plane)
+                for (std::uint32_t i = 0; i < count; ++i)
+                    ASSERT_EQ(sums.plane(plane / pt::gpu::FILM_WORDS, plane % pt::gpu::FILM_WORDS)[i],
+                              100 * plane + first + i)
+                        << first << ", " << count;
+        }
+}
+
+TEST_F(FilmStrips, AreReplacedAsOne) {
+    pt::DeviceFilm film(device(), 4, 4, 6);
+    const auto filled = [](std::uint32_t first, std::uint32_t count, std::uint32_t offset) {
+        pt::PixelSums sums;
+        sums.resize(count);
+        for (std::uint32_t plane = 0; plane < pt::PixelSums::words_per_pixel; ++plane)
+            for (std::uint32_t i = 0; i < count; ++i)
+                sums.plane(plane / pt::gpu::FILM_WORDS, plane % pt::gpu::FILM_WORDS)[i] =
+                    100 * plane + first + i + offset;
+        return sums;
+    };
+    const auto all = [&] {
+        pt::PixelSums sums;
+        sums.resize(film.pixel_count());
+        film.read(0, sums);
+        return sums;
+    };
+    for (std::uint32_t cut = 1; cut < film.pixel_count(); ++cut) {
+        const pt::PixelSums before = all();
+        pt::DeviceFilm::NewSums sums(device(), film);
+        sums.write(0, filled(0, cut, cut));
+        sums.write(cut, filled(cut, film.pixel_count() - cut, cut));
+        ASSERT_TRUE(all() == before) << cut;
+        sums.replace();
+        ASSERT_TRUE(all() == filled(0, film.pixel_count(), cut)) << cut;
+    }
+}
+
+} // namespace

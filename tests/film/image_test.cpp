@@ -1,0 +1,168 @@
+// Rules of images in the caller's memory.
+#include "lib/render/image.h"
+
+#include "tests/geometry/refusals.h"
+#include "tests/support/image_target.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace {
+
+constexpr std::uint32_t width = 5;
+constexpr std::uint32_t height = 3;
+
+alignas(16) float memory[256];
+
+pt_image valid_image() {
+    pt_image image = image_target(memory);
+    image.size_bytes = height * width * 12;
+    return image;
+}
+
+std::string image_outcome(const pt_image &image) {
+    return outcome_of(PT_ERROR_INVALID_ARGUMENT,
+                      [&] { pt::validated_image(image, width, height, pt::ImageSource::Context); });
+}
+
+pt::ImageLayout layout_of(const pt_image &image) {
+    return pt::validated_image(image, width, height, pt::ImageSource::Context).layout;
+}
+
+pt_image part(std::uint32_t x, std::uint32_t y, std::uint32_t part_width, std::uint32_t part_height) {
+    pt_image image = valid_image();
+    image.x = x;
+    image.y = y;
+    image.width = part_width;
+    image.height = part_height;
+    return image;
+}
+
+TEST(Image, IsTightByDefault) {
+    const pt::Image image = pt::validated_image(valid_image(), width, height, pt::ImageSource::Context);
+    EXPECT_EQ(image.data, reinterpret_cast<std::byte *>(memory));
+    EXPECT_EQ(image.layout.row_bytes, width * 12);
+    EXPECT_EQ(image.layout.quantity, uint32_t{PT_QUANTITY_RADIANCE});
+    EXPECT_EQ(image.layout.pixels, (pt::Rectangle{0, 0, width, height}));
+    EXPECT_EQ(layout_of(part(1, 2, 4, 1)).pixels, (pt::Rectangle{1, 2, 4, 1}));
+    EXPECT_EQ(layout_of(part(1, 2, 4, 1)).row_bytes, 48U);
+    pt_image objects = valid_image();
+    objects.quantity = PT_QUANTITY_OBJECT;
+    objects.format = PT_FORMAT_R32UI;
+    EXPECT_EQ(layout_of(objects).row_bytes, width * 4);
+}
+
+TEST(Image, MayHaveGapsBetweenRows) {
+    pt_image source = valid_image();
+    source.row_bytes = 64;
+    source.size_bytes = 2 * 64 + 60;
+    EXPECT_EQ(layout_of(source).row_bytes, 64U);
+    source.format = PT_FORMAT_RGBA16F;
+    source.size_bytes = 2 * 42 + 40;
+    source.row_bytes = 42;
+    source.data = reinterpret_cast<char *>(memory) + 2;
+    EXPECT_EQ(image_outcome(source), "accepted");
+    source = part(0, 1, 5, 1);
+    source.size_bytes = 60;
+    source.row_bytes = std::uint64_t{1} << 63;
+    EXPECT_EQ(image_outcome(source), "accepted");
+}
+
+const std::string none = ": must be >= 1, unless x, y, width and height are all 0";
+
+TEST(Image, BrokenRulesAreNamed) {
+    const std::string size = "must be >= (height - 1) * row_bytes + width * ";
+    expect_refusals<pt_image>(
+        valid_image(), image_outcome,
+        {{[](pt_image &i) { i.data = nullptr; }, "image.data = NULL: must not be NULL"},
+         {[](pt_image &i) { i.data = reinterpret_cast<char *>(memory) + 2; },
+          "image.data = " + std::to_string(reinterpret_cast<std::uintptr_t>(memory) + 2) + ": must be a multiple of 4"},
+         {[](pt_image &i) {
+              i.quantity = 8;
+              i.format = 4;
+              i.reserved = 1;
+          },
+          "image.quantity = 8: must be a PT_QUANTITY_* of pt.h\nimage.format = 4: must be a PT_FORMAT_* of pt.h\n"
+          "image.reserved = 1: must be 0"},
+         {[](pt_image &i) { i.quantity = PT_QUANTITY_OBJECT; },
+          "image.format = 0: must be PT_FORMAT_R32UI, as the quantity is PT_QUANTITY_OBJECT"},
+         {[](pt_image &i) {
+              i.quantity = PT_QUANTITY_DEPTH;
+              i.format = PT_FORMAT_R32UI;
+          },
+          "image.format = 3: PT_FORMAT_R32UI is for PT_QUANTITY_OBJECT alone"},
+         {[](pt_image &i) {
+              i.size_bytes = 1024;
+              i.row_bytes = 62;
+          },
+          "image.row_bytes = 62: must be a multiple of 4"},
+         {[](pt_image &i) { i.row_bytes = 56; }, "image.row_bytes = 56: must be >= width * 12 (60)"},
+         {[](pt_image &i) { --i.size_bytes; }, "image.size_bytes = 179: " + size + "12 (2 * 60 + 60)"},
+         {[](pt_image &i) { i.size_bytes = 0; }, "image.size_bytes = 0: " + size + "12 (2 * 60 + 60)"},
+         // 2 * 2^63 is 0 in 64 bits.
+         {[](pt_image &i) { i.row_bytes = std::uint64_t{1} << 63; },
+          "image.size_bytes = 180: " + size + "12 (2 * 9223372036854775808 + 60)"},
+         {[](pt_image &i) { i.format = PT_FORMAT_RGBA32F; }, "image.size_bytes = 180: " + size + "16 (2 * 80 + 80)"},
+         {[](pt_image &i) {
+              i = part(4, 0, 1, 3);
+              i.size_bytes = 35;
+          },
+          "image.size_bytes = 35: " + size + "12 (2 * 12 + 12)"},
+         {[](pt_image &i) { i = part(1, 1, 0, 0); }, "image.width = 0" + none + "\nimage.height = 0" + none},
+         {[](pt_image &i) { i = part(1, 0, 5, 1); }, "image.x + width = 6: must be <= 5"},
+         {[](pt_image &i) { i = part(0, 1, 1, 3); }, "image.y + height = 4: must be <= 3"},
+         {[](pt_image &i) { i = part(UINT32_MAX, 0, 2, 1); }, "image.x + width = 4294967297: must be <= 5"}});
+}
+
+pt_buffer_image valid_buffer() {
+    pt_buffer_image image{};
+    image.struct_size = sizeof image;
+    image.buffer = 77;
+    image.offset_bytes = 20;
+    image.size_bytes = 200;
+    return image;
+}
+
+std::string buffer_outcome(const pt_buffer_image &image) {
+    return outcome_of(PT_ERROR_INVALID_ARGUMENT, [&] { pt::validated_image(image, width, height); });
+}
+
+TEST(BufferImage, IsWhatItSays) {
+    pt_buffer_image source = valid_buffer();
+    source.size_bytes = UINT64_MAX;
+    source.row_bytes = 100;
+    source.wait_semaphore = 5;
+    source.signal_semaphore = 6;
+    source.format = PT_FORMAT_RGBA16F;
+    const pt::BufferImage image = pt::validated_image(source, width, height);
+    EXPECT_EQ(image.buffer, 77U);
+    EXPECT_EQ(image.offset_bytes, 20U);
+    EXPECT_EQ(image.layout.row_bytes, 100U);
+    EXPECT_EQ(image.layout.format, std::uint32_t{PT_FORMAT_RGBA16F});
+    EXPECT_EQ(image.wait_semaphore, 5U);
+    EXPECT_EQ(image.signal_semaphore, 6U);
+}
+
+TEST(BufferImage, BrokenRulesAreNamed) {
+    expect_refusals<pt_buffer_image>(
+        valid_buffer(), buffer_outcome,
+        {{[](pt_buffer_image &i) {
+              i.buffer = 0;
+              i.offset_bytes = 18;
+              i.quantity = PT_QUANTITY_DEPTH;
+              i.row_bytes = 62;
+              i.size_bytes = 1000;
+          },
+          "image.buffer = 0: must be a VkBuffer\nimage.offset_bytes = 18: must be a multiple of 4\n"
+          "image.quantity = 3: must be PT_QUANTITY_RADIANCE, PT_QUANTITY_STANDARD_ERROR or PT_QUANTITY_SAMPLE_COUNT "
+          "here: only pt_readback reads first hits\n"
+          "image.row_bytes = 62: must be a multiple of 4"},
+         {[](pt_buffer_image &i) { --i.size_bytes; },
+          "image.size_bytes = 199: must be >= offset_bytes + (height - 1) * row_bytes + width * 12 (20 + 2 * 60 + 60)"},
+         {[](pt_buffer_image &i) { i.offset_bytes = UINT64_MAX - 3; },
+          "image.size_bytes = 200: must be >= offset_bytes + (height - 1) * row_bytes + width * 12 "
+          "(18446744073709551612 + 2 * 60 + 60)"}});
+}
+
+} // namespace

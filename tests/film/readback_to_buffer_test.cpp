@@ -1,0 +1,339 @@
+// Images in the caller's buffers have the bits of pt_readback(), and arrive in order.
+#include "lib/film/pixel_format.h"
+#include "tests/support/context_calls.h"
+#include "tests/support/context_fixture.h"
+#include "tests/support/coursework_scene.h"
+#include "tests/support/render_image.h"
+#include "tests/support/shared_context.h"
+#include "tests/vulkan/caller_vulkan.h"
+#include "tests/vulkan/held_work.h"
+
+#include <pt/async.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+
+namespace {
+
+constexpr std::uint32_t lent_width = 61;
+constexpr std::uint32_t lent_height = 33;
+constexpr std::uint64_t buffer_bytes = 50'000;
+constexpr std::uint32_t guard_word = 0xa5a5a5a5;
+
+using BufferContents = std::vector<std::byte>;
+
+class CallersBuffer {
+public:
+    CallersBuffer(const CallersOwnVulkan &caller, vk::BufferUsageFlags usage) :
+        buffer_(caller.device().createBuffer({.size = buffer_bytes, .usage = usage})),
+        memory_(allocate(caller)) {
+        buffer_.bindMemory(*memory_, 0);
+        bytes_ = static_cast<std::byte *>(memory_.mapMemory(0, VK_WHOLE_SIZE));
+        std::fill_n(bytes_, buffer_bytes, std::byte{guard_word & 0xff});
+    }
+
+    vk::Buffer handle() const { return *buffer_; }
+    BufferContents bytes() const { return {bytes_, bytes_ + buffer_bytes}; }
+
+private:
+    vk::raii::DeviceMemory allocate(const CallersOwnVulkan &caller) const {
+        const vk::MemoryRequirements needs = buffer_.getMemoryRequirements();
+        const vk::PhysicalDeviceMemoryProperties types = caller.physical_device().getMemoryProperties();
+        constexpr auto wanted = vk::MemoryPropertyFlagBits::eHostVisible | vk::MemoryPropertyFlagBits::eHostCoherent;
+        std::uint32_t type = 0;
+        while (!(needs.memoryTypeBits >> type & 1U) || (types.memoryTypes.at(type).propertyFlags & wanted) != wanted)
+            ++type;
+        return caller.device().allocateMemory({.allocationSize = needs.size, .memoryTypeIndex = type});
+    }
+
+    vk::raii::Buffer buffer_;
+    vk::raii::DeviceMemory memory_;
+    std::byte *bytes_ = nullptr;
+};
+
+class ReadbackToBufferTest : public CallerVulkanFixture {
+protected:
+    void SetUp() override {
+        CallerVulkanFixture::SetUp();
+        buffer_.emplace(*caller_, vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferSrc |
+                                      vk::BufferUsageFlagBits::eTransferDst);
+    }
+
+    void TearDown() override {
+        context_.reset();
+        commands_.clear();
+        pool_.reset();
+        buffer_.reset();
+        CallerVulkanFixture::TearDown();
+    }
+
+    void use_context(bool like_gpus) {
+        const pt_vulkan vulkan = caller_->handles();
+        pt_create_info info{};
+        info.struct_size = sizeof info;
+        info.vulkan = &vulkan;
+        pt_context *created = nullptr;
+        ASSERT_EQ(create_shared(1, info, &created, like_gpus), PT_OK) << pt_last_error(nullptr);
+        context_.reset(created);
+        const CourseworkScene coursework;
+        render_image(context(), coursework.scene(), CourseworkScene::camera(), render_of(lent_width, lent_height, 3),
+                     17);
+    }
+
+    pt_context *context() const { return context_.get(); }
+
+    pt_buffer_image target() const {
+        pt_buffer_image image{};
+        image.struct_size = sizeof image;
+        image.buffer = std::bit_cast<std::uint64_t>(static_cast<VkBuffer>(buffer_->handle()));
+        image.size_bytes = buffer_bytes;
+        return image;
+    }
+
+    static std::uint64_t handle_of(const vk::raii::Semaphore &semaphore) {
+        return std::bit_cast<std::uint64_t>(static_cast<VkSemaphore>(*semaphore));
+    }
+
+    BufferContents expected(const pt_buffer_image &image) const {
+        const std::uint64_t row =
+            std::uint64_t{image.width == 0 ? lent_width : image.width} * pt::pixel_bytes(image.format);
+        const std::uint32_t rows = image.height == 0 ? lent_height : image.height;
+        BufferContents pixels(row * rows);
+        pt_image part{};
+        part.struct_size = sizeof part;
+        part.quantity = image.quantity;
+        part.data = pixels.data();
+        part.size_bytes = pixels.size();
+        part.x = image.x;
+        part.y = image.y;
+        part.width = image.width;
+        part.height = image.height;
+        part.format = image.format;
+        EXPECT_EQ(pt_readback(context(), &part), PT_OK) << pt_last_error(context());
+        BufferContents bytes = untouched_buffer();
+        for (std::uint32_t y = 0; y < rows; ++y)
+            std::copy_n(&pixels[y * row], row,
+                        &bytes[image.offset_bytes + y * (image.row_bytes == 0 ? row : image.row_bytes)]);
+        return bytes;
+    }
+
+    // Semaphores may be null.
+    template <typename Record>
+    void submit(const Record &record, vk::Semaphore wait, vk::Semaphore signal) {
+        if (!pool_)
+            pool_ = caller_->device().createCommandPool({.queueFamilyIndex = caller_->family()});
+        commands_.push_back(std::move(
+            caller_->device().allocateCommandBuffers({.commandPool = **pool_, .commandBufferCount = 1}).front()));
+        commands_.back().begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+        record(commands_.back());
+        commands_.back().end();
+        const vk::CommandBuffer work = *commands_.back();
+        const vk::PipelineStageFlags stages = vk::PipelineStageFlagBits::eTransfer;
+        caller_->queue().submit(vk::SubmitInfo{.waitSemaphoreCount = wait ? 1U : 0U,
+                                               .pWaitSemaphores = &wait,
+                                               .pWaitDstStageMask = &stages,
+                                               .commandBufferCount = 1,
+                                               .pCommandBuffers = &work,
+                                               .signalSemaphoreCount = signal ? 1U : 0U,
+                                               .pSignalSemaphores = &signal});
+    }
+
+    void copy_to(const CallersBuffer &copy, vk::Semaphore semaphore) {
+        submit(
+            [&](const vk::raii::CommandBuffer &commands) {
+                commands.copyBuffer(buffer_->handle(), copy.handle(), vk::BufferCopy{.size = buffer_bytes});
+                constexpr vk::MemoryBarrier to_host{.srcAccessMask = vk::AccessFlagBits::eTransferWrite,
+                                                    .dstAccessMask = vk::AccessFlagBits::eHostRead};
+                commands.pipelineBarrier(vk::PipelineStageFlagBits::eTransfer, vk::PipelineStageFlagBits::eHost, {},
+                                         to_host, {}, {});
+            },
+            semaphore, {});
+        caller_->queue().waitIdle();
+    }
+
+    static BufferContents untouched_buffer() { return BufferContents(buffer_bytes, std::byte{guard_word & 0xff}); }
+
+    void refused(const pt_buffer_image &image, pt_result result, const std::string &message) {
+        EXPECT_EQ(pt_readback_to_buffer(context(), &image), result);
+        EXPECT_EQ(pt_last_error(context()), message);
+    }
+
+    std::optional<CallersBuffer> buffer_;
+    Context context_;
+
+private:
+    std::optional<vk::raii::CommandPool> pool_;
+    std::vector<vk::raii::CommandBuffer> commands_;
+};
+
+TEST_F(ReadbackToBufferTest, HasTheBitsOfReadback) {
+    for (const bool like_gpus : {false, true}) {
+        use_context(like_gpus);
+        for (const std::uint32_t quantity : {PT_QUANTITY_RADIANCE, PT_QUANTITY_STANDARD_ERROR})
+            for (const std::uint32_t format : {PT_FORMAT_RGB32F, PT_FORMAT_RGBA32F, PT_FORMAT_RGBA16F}) {
+                pt_buffer_image whole = target();
+                whole.quantity = quantity;
+                whole.format = format;
+                pt_buffer_image part = whole;
+                part.offset_bytes = 1236;
+                part.x = 7;
+                part.y = 11;
+                part.width = 50;
+                part.height = 20;
+                part.row_bytes = 820;
+                for (const pt_buffer_image &image : {whole, part}) {
+                    buffer_.emplace(*caller_, vk::BufferUsageFlagBits::eStorageBuffer);
+                    pt_buffer_image here = image;
+                    here.buffer = target().buffer;
+                    ASSERT_EQ(pt_readback_to_buffer(context(), &here), PT_OK) << pt_last_error(context());
+                    ASSERT_TRUE(buffer_->bytes() == expected(here))
+                        << "quantity " << quantity << ", format " << format << ", x " << here.x;
+                }
+            }
+    }
+}
+
+TEST_F(ReadbackToBufferTest, WithASemaphoreToSignalTheHostDoesNotWait) {
+    for (const bool like_gpus : {false, true}) {
+        use_context(like_gpus);
+        const vk::raii::Semaphore after = caller_->device().createSemaphore({});
+        const CallersBuffer copy(*caller_, vk::BufferUsageFlagBits::eTransferDst);
+        buffer_.emplace(*caller_, vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferSrc);
+        pt_buffer_image image = target();
+        image.format = PT_FORMAT_RGBA16F;
+        image.signal_semaphore = handle_of(after);
+        {
+            const Gate gate(caller_->device());
+            submit([&](const vk::raii::CommandBuffer &commands) { gate.record(commands); }, {}, {});
+            ASSERT_EQ(pt_readback_to_buffer(context(), &image), PT_OK) << pt_last_error(context());
+            EXPECT_TRUE(buffer_->bytes() == untouched_buffer());
+        }
+        copy_to(copy, *after);
+        ASSERT_TRUE(copy.bytes() == expected(image));
+    }
+}
+
+// The layer reports wrong semaphores in the second round.
+TEST_F(ReadbackToBufferTest, SemaphoresOrderItOnTheDevice) {
+    use_context(true);
+    const vk::raii::Semaphore before = caller_->device().createSemaphore({});
+    const vk::raii::Semaphore after = caller_->device().createSemaphore({});
+    const auto fill = [&](const vk::raii::CommandBuffer &commands) {
+        commands.fillBuffer(buffer_->handle(), 0, VK_WHOLE_SIZE, guard_word);
+    };
+    pt_buffer_image image = target();
+    image.wait_semaphore = handle_of(before);
+    for (int round = 0; round < 2; ++round) {
+        const CallersBuffer copy(*caller_, vk::BufferUsageFlagBits::eTransferDst);
+        image.signal_semaphore = handle_of(after);
+        submit(fill, {}, *before);
+        ASSERT_EQ(pt_readback_to_buffer(context(), &image), PT_OK) << pt_last_error(context());
+        copy_to(copy, *after);
+        ASSERT_TRUE(copy.bytes() == expected(image));
+        image.signal_semaphore = 0;
+        submit(fill, {}, *before);
+        ASSERT_EQ(pt_readback_to_buffer(context(), &image), PT_OK) << pt_last_error(context());
+        ASSERT_TRUE(buffer_->bytes() == expected(image)) << "the host has waited";
+    }
+}
+
+TEST_F(ReadbackToBufferTest, TheContextGoesOnMeanwhile) {
+    use_context(true);
+    const BufferContents before = expected(target());
+    const vk::raii::Semaphore semaphores[] = {caller_->device().createSemaphore({}),
+                                              caller_->device().createSemaphore({}),
+                                              caller_->device().createSemaphore({})};
+    const auto start = [&](const vk::raii::Semaphore &semaphore) {
+        pt_buffer_image image = target();
+        image.signal_semaphore = handle_of(semaphore);
+        EXPECT_EQ(pt_readback_to_buffer(context(), &image), PT_OK) << pt_last_error(context());
+    };
+    const pt_accumulate_info more{sizeof more, 40, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
+    start(semaphores[0]);
+    EXPECT_EQ(pt_accumulate(context(), &more), PT_OK) << pt_last_error(context());
+    caller_->device().waitIdle();
+    EXPECT_TRUE(buffer_->bytes() == before);
+    EXPECT_FALSE(expected(target()) == before) << "more samples, another image";
+    start(semaphores[1]);
+    const pt_render smaller = render_of(5, 4, 3);
+    EXPECT_EQ(pt_set_render(context(), &smaller), PT_OK) << pt_last_error(context());
+    EXPECT_EQ(pt_accumulate(context(), &more), PT_OK) << pt_last_error(context());
+    start(semaphores[2]);
+    context_.reset();
+    caller_->device().waitIdle();
+}
+
+TEST_F(ReadbackToBufferTest, LaterSamplesDoNotChangeIt) {
+    for (const bool like_gpus : {false, true}) {
+        use_context(like_gpus);
+        const BufferContents before = expected(target());
+        const vk::raii::Semaphore after = caller_->device().createSemaphore({});
+        pt_buffer_image image = target();
+        image.signal_semaphore = handle_of(after);
+        const pt_accumulate_info more{sizeof more, 40, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
+        {
+            const Gate gate(caller_->device());
+            submit([&](const vk::raii::CommandBuffer &commands) { gate.record(commands); }, {}, {});
+            ASSERT_EQ(pt_readback_to_buffer(context(), &image), PT_OK) << pt_last_error(context());
+            ASSERT_EQ(pt_start(context(), &more), PT_PENDING) << pt_last_error(context());
+        }
+        EXPECT_EQ(pt_poll(context(), UINT64_MAX, nullptr), PT_OK) << pt_last_error(context());
+        caller_->device().waitIdle();
+        EXPECT_TRUE(buffer_->bytes() == before);
+        image.signal_semaphore = 0;
+        EXPECT_EQ(pt_readback_to_buffer(context(), &image), PT_OK) << pt_last_error(context());
+        EXPECT_TRUE(buffer_->bytes() == expected(target()));
+        EXPECT_FALSE(buffer_->bytes() == before) << "more samples, another image";
+    }
+}
+
+TEST_F(ReadbackToBufferTest, NeedsALentDeviceAndSamples) {
+    pt_create_info info{};
+    info.struct_size = sizeof info;
+    info.device = std::getenv("PT_TEST_DEVICE");
+    pt_context *created = nullptr;
+    ASSERT_EQ(pt_create(&info, &created), PT_OK) << pt_last_error(nullptr);
+    context_.reset(created);
+    const char *const own = "the context has a device of its own: pt_create_info.vulkan lends it one";
+    refused(target(), PT_ERROR_INVALID_STATE, own);
+    const CourseworkScene coursework;
+    render_image(context(), coursework.scene(), CourseworkScene::camera(), render_of(2, 2, 1), 1);
+    refused(target(), PT_ERROR_INVALID_STATE, own);
+
+    const pt_vulkan vulkan = caller_->handles();
+    info.device = nullptr;
+    info.vulkan = &vulkan;
+    ASSERT_EQ(pt_create(&info, &created), PT_OK) << pt_last_error(nullptr);
+    context_.reset(created);
+    refused(target(), PT_ERROR_INVALID_STATE, "no scene: call pt_set_scene first");
+    const pt_scene scene = coursework.scene();
+    const pt_camera camera = CourseworkScene::camera();
+    const pt_render render = render_of(2, 2, 1);
+    set_picture(context(), scene, camera, render);
+    refused(target(), PT_ERROR_INVALID_STATE, "no samples yet: call pt_accumulate or pt_add_film first");
+}
+
+TEST_F(ReadbackToBufferTest, RefusesWhatBreaksARule) {
+    use_context(false);
+    EXPECT_EQ(pt_readback_to_buffer(nullptr, nullptr), PT_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(pt_readback_to_buffer(context(), nullptr), PT_ERROR_INVALID_ARGUMENT);
+    pt_buffer_image image = target();
+    image.buffer = 0;
+    image.width = 62;
+    image.height = 1;
+    refused(image, PT_ERROR_INVALID_ARGUMENT,
+            "image.buffer = 0: must be a VkBuffer\nimage.x + width = 62: must be <= 61");
+    image = target();
+    image.size_bytes = 24'155;
+    refused(image, PT_ERROR_INVALID_ARGUMENT,
+            "image.size_bytes = 24155: must be >= (height - 1) * row_bytes + width * 12 (32 * 732 + 732)");
+    image.struct_size = 0;
+    refused(image, PT_ERROR_INVALID_ARGUMENT,
+            "image.struct_size = 0: must be the size of the struct, which holds this field");
+    EXPECT_TRUE(buffer_->bytes() == BufferContents(buffer_bytes, std::byte{guard_word & 0xff}))
+        << "nothing was written";
+}
+
+} // namespace

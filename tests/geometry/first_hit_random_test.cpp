@@ -1,0 +1,304 @@
+// Compares first hits in random scenes, in trees and lists, with long double. PT_TEST_MANY renders 600 scenes, and
+// PT_TEST_FIRST_SCENE is the first one.
+#include "lib/kernel/gpu_scene.h"
+#include "tests/geometry/first_hit_scenes.h"
+#include "tests/geometry/tree_fixture.h"
+#include "tests/geometry/tree_scenes.h"
+#include "tests/support/checked_scene_of.h"
+#include "tests/support/context_calls.h"
+#include "tests/support/first_hit_reference.h"
+#include "tests/support/scene_of.h"
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace random_first_hits {
+
+namespace {
+
+using namespace first_hits;
+
+struct Shot : Given {
+    std::string name;
+    pt_render render{};
+    std::uint32_t first_column = 0;
+};
+
+constexpr std::uint32_t columns = 16; // columns of the crop
+constexpr std::uint32_t rows = 2;
+constexpr std::uint32_t lattice_size = 16; // rays per pixel
+
+struct Pixels {
+    std::vector<std::uint32_t> objects;
+    std::vector<float> depths, normals, albedos; // three per pixel
+
+    bool operator==(const Pixels &) const = default;
+};
+
+struct Counts {
+    std::uint32_t pixels = 0;
+    std::uint32_t certain = 0;
+    std::uint32_t spheres = 0;
+    std::uint32_t means = 0;
+};
+
+glm::dvec3 albedo_of(const Given &given, std::uint32_t object) {
+    if (object == PT_NO_OBJECT)
+        return glm::dvec3(0.0);
+    const std::size_t plane = object - given.spheres.size();
+    const pt_material &material =
+        given.materials[object < given.spheres.size() ? given.spheres[object].material : given.planes[plane].material];
+    glm::dvec3 albedo;
+    for (int i = 0; i < 3; ++i)
+        albedo[i] = std::min(double{material.diffuse[i]} + double{material.specular[i]}, 1.0);
+    return albedo;
+}
+
+struct Means {
+    Vector normal{0.0L};
+    Real normal_tolerance = 0.0L;
+    glm::dvec3 albedo{0.0};
+};
+
+std::optional<Means> means_of(const Given &given, const pt_scene &scene, const View &view, std::uint32_t column,
+                              std::uint32_t row) {
+    Means means;
+    for (std::uint32_t i = 0; i < lattice_size; ++i) {
+        const auto place = [&](std::uint32_t factor) { return (factor * i % lattice_size + 0.5L) / lattice_size; };
+        const std::optional<Meeting> met = first_met(scene, view, view.ray(column, row, place(1), place(3), place(5)));
+        if (!met)
+            return std::nullopt;
+        means.normal += met->normal / Real{lattice_size};
+        means.normal_tolerance += met->normal_tolerance / lattice_size;
+        means.albedo += albedo_of(given, met->object) / double{lattice_size};
+    }
+    return means;
+}
+
+class RandomFirstHit : public TreeFixture {
+protected:
+    static void read(pt_context *from, const Shot &given, std::uint32_t quantity, std::uint32_t format, void *data,
+                     std::size_t bytes) {
+        pt_image target{};
+        target.struct_size = sizeof target;
+        target.quantity = quantity;
+        target.format = format;
+        target.data = data;
+        target.size_bytes = bytes;
+        target.x = given.first_column;
+        target.width = columns;
+        target.height = rows;
+        ASSERT_EQ(pt_readback(from, &target), PT_OK) << pt_last_error(from);
+    }
+
+    static Pixels seen_by(pt_context *context, const Shot &given) {
+        const pt_scene scene = given.scene();
+        Pixels pixels{std::vector<std::uint32_t>(columns * rows), {}, {}, {}};
+        set_picture(context, scene, given.camera, given.render);
+        read(context, given, PT_QUANTITY_OBJECT, PT_FORMAT_R32UI, pixels.objects.data(), 4 * pixels.objects.size());
+        for (const auto &[quantity, values] : {std::pair{PT_QUANTITY_DEPTH, &pixels.depths},
+                                               {PT_QUANTITY_NORMAL, &pixels.normals},
+                                               {PT_QUANTITY_ALBEDO, &pixels.albedos}}) {
+            values->resize(3 * columns * rows);
+            read(context, given, quantity, PT_FORMAT_RGB32F, values->data(), 4 * values->size());
+        }
+        return pixels;
+    }
+
+    // Returns false if undecided.
+    static bool judge_means(const Pixels &pixels, std::uint32_t pixel, const Shot &given, const pt_scene &scene,
+                            const View &view) {
+        const std::optional<Means> means = means_of(given, scene, view, given.first_column + pixel % columns,
+                                                    given.render.first_row + pixel / columns);
+        if (!means)
+            return false;
+        // The sums have 16 numbers up to 1. Albedos have a dozen roundings.
+        const double of_sum = 16.0 * static_cast<double>(rounding);
+        for (int i = 0; i < 3; ++i) {
+            const std::size_t place = 3 * pixel + static_cast<std::size_t>(i);
+            EXPECT_NEAR(pixels.normals[place], static_cast<double>(means->normal[i]),
+                        static_cast<double>(means->normal_tolerance) + of_sum);
+            EXPECT_NEAR(pixels.albedos[place], means->albedo[i], 2.0 * of_sum);
+        }
+        return true;
+    }
+
+    static Counts judge(pt_context *context, bool has_tree, const Shot &given) {
+        const Pixels pixels = seen_by(context, given);
+        const pt_scene scene = given.scene();
+        const pt::PreparedScene prepared = prepared_scene_of(checked_scene_of(scene), has_tree ? 1 : UINT32_MAX);
+        View view(given.camera, given.render);
+        view.start_distance =
+            pt::gpu_scene(prepared, pt::validated_camera(given.camera), pt::validated_render(given.render))
+                .start_distance;
+        view.tree_step = prepared.tree ? prepared.tree->grid().step : 0.0;
+        Counts counts;
+        for (std::uint32_t pixel = 0; pixel < columns * rows; ++pixel) {
+            const std::uint32_t column = given.first_column + pixel % columns;
+            const std::uint32_t row = given.render.first_row + pixel / columns;
+            SCOPED_TRACE(std::to_string(column) + ", " + std::to_string(row));
+            counts.means += pixel % 8 == 0 && judge_means(pixels, pixel, given, scene, view) ? 1 : 0;
+            const Ray ray = view.ray(column, row, 0.5L, 0.5L, 0.5L);
+            const std::optional<Meeting> met = first_met(scene, view, ray);
+            ++counts.pixels;
+            if (!met)
+                continue;
+            ++counts.certain;
+            counts.spheres += met->object < given.spheres.size() ? 1 : 0;
+            EXPECT_EQ(pixels.objects[pixel], met->object);
+            EXPECT_EQ(pixels.depths[3 * pixel + 1], pixels.depths[3 * pixel]);
+            EXPECT_EQ(pixels.depths[3 * pixel + 2], pixels.depths[3 * pixel]);
+            const Real depth = met->distance * glm::dot(ray.direction, view.forward);
+            // The cosine to the axis and the product have 8 roundings.
+            const Real tolerance = met->tolerance + 8.0L * rounding * met->distance;
+            if (met->object == PT_NO_OBJECT)
+                EXPECT_EQ(pixels.depths[3 * pixel], std::numeric_limits<float>::infinity());
+            else
+                EXPECT_NEAR(pixels.depths[3 * pixel], static_cast<double>(depth), static_cast<double>(tolerance));
+            if (testing::Test::HasFailure())
+                break;
+        }
+        return counts;
+    }
+};
+
+class RandomScenes {
+public:
+    Shot next() {
+        const pt::Scene scene = scenes_.next(2000);
+        Shot given;
+        given.name = scenes_.kind() + ", " + std::to_string(scene.spheres.size()) + " spheres";
+        for (const pt::Material &material : scene.materials)
+            given.materials.push_back({{material.diffuse.r, material.diffuse.g, material.diffuse.b},
+                                       {material.specular.r, material.specular.g, material.specular.b},
+                                       {material.emission.r, 0, 0},
+                                       0,
+                                       0});
+        given.materials[1].specular[0] = 0.5F;
+        if (chance(0.3))
+            given.materials[2].flags = PT_MATERIAL_HIDDEN_FROM_CAMERA;
+        given.spheres = caller_spheres(scene.spheres);
+        for (const pt::Plane &plane : scene.planes)
+            given.planes.push_back({{plane.normal.x, plane.normal.y, plane.normal.z}, plane.offset, 1, 0});
+        if (chance(0.4))
+            given.spheres.push_back({{0, 0, 0}, decades(0.8, 3), {0, 0, 0}, 1, 0});
+        set_camera(given);
+        return given;
+    }
+
+private:
+    double uniform(double low, double high) { return scenes_.uniform(low, high); }
+    double decades(double low, double high) { return std::pow(10.0, uniform(low, high)); }
+    bool chance(double probability) { return uniform(0, 1) < probability; }
+    std::uint32_t whole(std::uint32_t most) {
+        return static_cast<std::uint32_t>(uniform(0, std::nextafter(most + 1.0, 0.0)));
+    }
+
+    void set_camera(Shot &given) {
+        pt_camera &camera = given.camera;
+        camera = {};
+        camera.struct_size = sizeof camera;
+        const std::uint32_t place = whole(2);
+        const double distance = place == 0 ? uniform(0, 2) : place == 1 ? uniform(2, 6) : decades(1, 6);
+        const glm::dvec3 from = distance * glm::normalize(glm::dvec3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)));
+        const pt_sphere &aim = given.spheres[whole(static_cast<std::uint32_t>(given.spheres.size()) - 1)];
+        for (int i = 0; i < 3; ++i) {
+            camera.position[i] = from[i];
+            camera.target[i] = aim.center[i] + 0.4 * aim.motion[i] + aim.radius * uniform(-0.3, 0.3);
+        }
+        camera.up[0] = 0.123;
+        camera.up[1] = 1;
+        camera.shutter_open = 0.25;
+        camera.shutter_close = 0.75;
+        if (chance(0.4)) {
+            camera.projection = PT_PROJECTION_ORTHOGRAPHIC;
+            camera.vertical_extent = decades(-5, 3);
+        } else {
+            camera.vertical_fov = std::numbers::pi / 180.0 * decades(-6, 2.23);
+        }
+        constexpr std::array<std::uint32_t, 4> sides = {16, 64, 1080, 16384};
+        given.render = render_of(sides[whole(3)], 0, 1);
+        given.render.height = std::max(given.render.width * 3 / 4, rows);
+        given.render.row_count = rows;
+        given.render.first_row = whole(given.render.height - rows);
+        given.first_column = whole(given.render.width - columns);
+        given.name += camera.projection ? ", extent " + std::to_string(camera.vertical_extent)
+                                        : ", fov " + std::to_string(camera.vertical_fov);
+        given.name += ", " + std::to_string(given.render.width) + " wide, from " + std::to_string(distance);
+    }
+
+    TreeScenes scenes_{41};
+};
+
+TEST_F(RandomFirstHit, IsThatOfLongDouble) {
+    const int scene_count = std::getenv("PT_TEST_MANY") ? 600 : 16;
+    const char *const first = std::getenv("PT_TEST_FIRST_SCENE");
+    RandomScenes scenes;
+    std::array<Counts, 2> counts{};
+    for (int i = 0; i < scene_count && !HasFailure(); ++i) {
+        const Shot given = scenes.next();
+        if (first && i < std::atoi(first))
+            continue;
+        for (const bool has_tree : {true, false}) {
+            SCOPED_TRACE(std::to_string(i) + ": " + given.name + (has_tree ? ", tree" : ", list"));
+            const Counts found = judge(has_tree ? context() : without_tree(), has_tree, given);
+            counts[has_tree].pixels += found.pixels;
+            counts[has_tree].certain += found.certain;
+            counts[has_tree].spheres += found.spheres;
+            counts[has_tree].means += found.means;
+        }
+    }
+    for (const Counts &of : counts) {
+        EXPECT_GT(of.certain, of.pixels * 8 / 10);
+        EXPECT_GT(of.spheres, of.pixels / 3);
+        EXPECT_GT(of.means, of.pixels / 16);
+    }
+}
+
+// Coordinates in quarters are exact in float32 and on the grid, so tree and list agree to the bit. Rays start beyond
+// the tree.
+TEST_F(RandomFirstHit, OfALatticeInASkyIsThatOfAList) {
+    Shot shot;
+    shot.materials = {{{0.7F, 0.7F, 0.7F}, {0, 0, 0}, {0, 0, 0}, 0, 0}, {{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0, 0}};
+    for (int i = 0; i < 125; ++i)
+        shot.spheres.push_back(
+            {{0.5 * (i % 5) - 1, 0.5 * (i / 5 % 5) - 1, 0.5 * (i / 25) - 1}, 0.125, {0, 0, 0}, 0, 0});
+    for (const double sky : {16.0, 128.0})
+        for (const double narrowness : {1.0, 0.25, 0.05, 1e-3, 1e-6})
+            for (const bool is_parallel : {false, true}) {
+                SCOPED_TRACE(std::to_string(sky) + ", " + std::to_string(narrowness) +
+                             (is_parallel ? ", parallel" : ""));
+                shot.spheres.resize(125);
+                shot.spheres.push_back({{0, 0, 0}, sky, {0, 0, 0}, 1, 0});
+                shot.camera = {};
+                shot.camera.struct_size = sizeof shot.camera;
+                shot.camera.position[0] = 0.25;
+                shot.camera.position[2] = 1.5;
+                shot.camera.target[0] = is_parallel ? 0.0 : 0.25;
+                shot.camera.up[1] = 1;
+                shot.camera.projection = is_parallel ? PT_PROJECTION_ORTHOGRAPHIC : PT_PROJECTION_PERSPECTIVE;
+                shot.camera.vertical_extent = is_parallel ? 4.0 * narrowness : 0.0;
+                shot.camera.vertical_fov = is_parallel ? 0.0 : narrowness;
+                shot.camera.shutter_close = 1;
+                shot.render = render_of(1440, 1080, 1);
+                shot.render.first_row = 100;
+                shot.render.row_count = rows;
+                shot.first_column = 300;
+                EXPECT_GT(judge(context(), true, shot).certain, 24U);
+                EXPECT_GT(judge(without_tree(), false, shot).certain, 24U);
+                if (narrowness == 1.0 && !is_parallel) {
+                    EXPECT_TRUE(seen_by(context(), shot) == seen_by(without_tree(), shot));
+                }
+            }
+}
+
+} // namespace
+
+} // namespace random_first_hits

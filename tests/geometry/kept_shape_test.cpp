@@ -1,0 +1,248 @@
+// Trees that reuse another tree's shape.
+#include "tests/geometry/heap_tree.h"
+
+#include "lib/kernel/prepared_scene.h"
+#include "tests/support/checked_scene_of.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace kept_shapes {
+
+namespace {
+
+using namespace heap_tree;
+using Spheres = std::vector<pt_sphere>;
+
+constexpr std::size_t ball_count = 2000; // The balls lie in [-1, 1]^3 with a spacing of 0.16.
+
+Spheres moved(Spheres spheres, double by) {
+    std::mt19937 engine(29);
+    std::normal_distribution<double> normal;
+    for (pt_sphere &sphere : spheres)
+        for (double &coordinate : sphere.center)
+            coordinate += by * normal(engine);
+    return spheres;
+}
+
+std::optional<pt::SphereTree> kept(const pt::SphereTree &other, const Spheres &spheres,
+                                   const std::vector<std::uint32_t> &left_out = {}) {
+    pt::WorkProgress nobody;
+    return pt::SphereTree::with_shape_of(other, pt::SphereSource(spheres, {}), left_out, two_materials, nobody);
+}
+
+std::string digest_of(const pt::SphereTree &tree) {
+    pt::Digest digest;
+    tree.add_to(digest);
+    return digest.text();
+}
+
+void expect_alike(const pt::SphereTree &tree, const pt::SphereTree &other) {
+    EXPECT_EQ(tree.sphere_count(), other.sphere_count());
+    EXPECT_EQ(tree.moves(), other.moves());
+    EXPECT_EQ(tree.has_colors(), other.has_colors());
+    EXPECT_EQ(tree.lamp_materials(), other.lamp_materials());
+    EXPECT_EQ(tree.bounds().low, other.bounds().low);
+    EXPECT_EQ(tree.bounds().high, other.bounds().high);
+    EXPECT_EQ(tree.has_close_lamps(), other.has_close_lamps());
+    for (std::uint32_t lamp = 0; lamp < tree.lamp_materials().size(); ++lamp) {
+        EXPECT_EQ(tree.lamp(lamp).center, other.lamp(lamp).center);
+        EXPECT_EQ(tree.lamp(lamp).radius, other.lamp(lamp).radius);
+    }
+    EXPECT_EQ(digest_of(tree), digest_of(other));
+}
+
+TEST(KeptShape, HoldsSpheresThatHaveMoved) {
+    for (const double motion : {0.0, 0.02}) {
+        const Spheres spheres = heap(ball_count, motion);
+        const pt::SphereTree tree = tree_of(spheres);
+        for (const double by : {0.0, 0.01, 0.03}) {
+            const Spheres now = moved(spheres, by);
+            const auto with_shape = kept(tree, now);
+            ASSERT_TRUE(with_shape) << by;
+            expect_all_held(*with_shape, ball_count);
+            expect_alike(*with_shape, tree_of(now));
+            EXPECT_EQ(with_shape->depth(), tree.depth());
+            EXPECT_EQ(with_shape->node_count(), tree.node_count());
+        }
+    }
+}
+
+TEST(KeptShape, HasTheWordsOfTheTreeThatItWasMadeFor) {
+    const Spheres spheres = heap(ball_count, 0.01);
+    const pt::SphereTree tree = tree_of(spheres);
+    const auto same = kept(tree, spheres);
+    ASSERT_TRUE(same);
+    EXPECT_EQ(same->words(), tree.words());
+    EXPECT_EQ(same->cost(), tree.cost());
+    const auto there = kept(tree, moved(spheres, 0.03));
+    ASSERT_TRUE(there);
+    EXPECT_NE(there->words(), tree.words());
+    const auto back = kept(*there, spheres);
+    ASSERT_TRUE(back);
+    EXPECT_EQ(back->words(), tree.words());
+}
+
+TEST(KeptShape, IsOfAllThatIsNotPlacesToo) {
+    const Spheres spheres = heap(ball_count, 0.0);
+    const pt::SphereTree tree = tree_of(spheres);
+    Spheres now = spheres;
+    for (std::size_t i = 0; i < now.size(); ++i) {
+        now[i].radius *= i % 2 == 0 ? 1.01 : 0.99;
+        now[i].motion[1] = 1e-3;
+        now[i].material = i % 7 == 0 ? 1 : 0;
+    }
+    const auto with_shape = kept(tree, now);
+    ASSERT_TRUE(with_shape);
+    expect_all_held(*with_shape, ball_count);
+    expect_alike(*with_shape, tree_of(now));
+    EXPECT_EQ(with_shape->lamp_materials().size(), (ball_count + 6) / 7);
+
+    std::vector<float> colors(3 * ball_count, 0.25F);
+    pt_sphere_array array{};
+    array.struct_size = sizeof array;
+    array.count = ball_count;
+    array.center = {spheres[0].center, sizeof spheres[0], PT_TYPE_FLOAT64};
+    array.radius = {&spheres[0].radius, sizeof spheres[0], PT_TYPE_FLOAT64};
+    array.color = {colors.data(), 12, PT_TYPE_FLOAT32};
+    const pt::SphereSource source({}, {&array, 1});
+    pt::WorkProgress nobody;
+    const auto colored = pt::SphereTree::with_shape_of(tree, source, {}, two_materials, nobody);
+    ASSERT_TRUE(colored);
+    expect_alike(*colored, pt::SphereTree(source, {}, two_materials, nobody));
+}
+
+TEST(KeptShape, IsNotForOtherSpheres) {
+    const Spheres spheres = heap(ball_count, 0.0);
+    const pt::SphereTree tree = tree_of(spheres);
+    EXPECT_TRUE(kept(tree, spheres));
+    EXPECT_FALSE(kept(tree, spheres, {5}));
+    Spheres more = spheres;
+    more.push_back({{5, 0, 0}, 0.02, {0, 0, 0}, 0, 0});
+    EXPECT_FALSE(kept(tree, more));
+    EXPECT_FALSE(kept(tree, more, {5})) << "as many, but others";
+    Spheres fewer = spheres;
+    fewer.pop_back();
+    EXPECT_FALSE(kept(tree, fewer));
+
+    pt::WorkProgress nobody;
+    const pt::SphereTree without_one(pt::SphereSource(spheres, {}), std::vector<std::uint32_t>{5}, two_materials,
+                                     nobody);
+    EXPECT_TRUE(kept(without_one, spheres, {5}));
+    EXPECT_FALSE(kept(without_one, spheres, {6}));
+    EXPECT_FALSE(kept(without_one, spheres));
+    EXPECT_FALSE(kept(without_one, fewer)) << "as many, but others";
+}
+
+TEST(KeptShape, IsNotForTwins) {
+    const Spheres spheres = heap(ball_count, 0.0);
+    const pt::SphereTree tree = tree_of(spheres);
+    Spheres with_twins = spheres;
+    std::ranges::copy(with_twins[7].center, with_twins[1500].center);
+    with_twins[1500].radius = with_twins[7].radius;
+    EXPECT_FALSE(kept(tree, with_twins));
+    const pt::SphereTree of_twins = tree_of(with_twins);
+    EXPECT_EQ(of_twins.sphere_count(), ball_count - 1);
+    EXPECT_FALSE(kept(of_twins, spheres));
+    EXPECT_FALSE(kept(of_twins, with_twins));
+    // These are no twins, but only their places decide at equal distances.
+    with_twins[1500].motion[0] = 0.5;
+    EXPECT_EQ(tree_of(with_twins).sphere_count(), ball_count);
+    EXPECT_FALSE(kept(tree, with_twins));
+}
+
+TEST(KeptShape, IsGivenUpWhereANewTreeWouldBeMuchBetter) {
+    const Spheres spheres = heap(ball_count, 0.0);
+    const pt::SphereTree tree = tree_of(spheres);
+    const auto growth = [&](double by) {
+        const auto with_shape = kept(tree, moved(spheres, by));
+        return with_shape ? with_shape->cost() / tree.cost() : INFINITY;
+    };
+    double before = 1.0;
+    for (const double by : {0.02, 0.03, 0.04}) {
+        EXPECT_GT(growth(by), before);
+        EXPECT_LE(growth(by), 1.25);
+        before = growth(by);
+    }
+    EXPECT_EQ(growth(0.1), INFINITY);
+    EXPECT_EQ(growth(1.0), INFINITY);
+
+    std::optional<pt::SphereTree> last = tree_of(spheres);
+    int steps = 0;
+    for (; last && steps < 100; ++steps)
+        last = kept(*last, moved(spheres, 0.005 * steps));
+    EXPECT_GT(steps, 5);
+    EXPECT_LT(steps, 30);
+}
+
+TEST(KeptShape, IsGivenUpWhereTheWholeIsAnother) {
+    const Spheres spheres = heap(ball_count, 0.0);
+    const pt::SphereTree tree = tree_of(spheres);
+    Spheres one_away = spheres;
+    one_away[3].center[1] = 14;
+    EXPECT_FALSE(kept(tree, one_away));
+    Spheres scaled = spheres;
+    for (pt_sphere &sphere : scaled) {
+        sphere.radius *= 3;
+        for (double &coordinate : sphere.center)
+            coordinate *= 3;
+    }
+    EXPECT_TRUE(kept(tree, scaled)) << "all is as it was";
+}
+
+TEST(KeptShape, IsTakenFromTheSceneBefore) {
+    const std::vector<pt::Material> materials(2, pt::Material{glm::vec3(0.5F), glm::vec3(0), glm::vec3(0), 0});
+    const auto prepared = [&](const Spheres &spheres, const pt::PreparedScene *before) {
+        pt::WorkProgress nobody;
+        return pt::PreparedScene({materials, pt::SphereSource(spheres, {}), {}}, 50, before, nobody);
+    };
+    Spheres spheres = heap(ball_count, 0.0);
+    spheres[100] = {{0, -1e4, 0}, 1e4 - 2, {0, 0, 0}, 0, 0}; // outlying
+    const pt::PreparedScene first = prepared(spheres, nullptr);
+    const Spheres later = moved(spheres, 0.02);
+    const pt::PreparedScene with_shape = prepared(later, &first);
+    const pt::PreparedScene anew = prepared(later, nullptr);
+    EXPECT_EQ(with_shape.tree->node_count(), first.tree->node_count());
+    EXPECT_NE(with_shape.tree->words(), anew.tree->words());
+    EXPECT_EQ(with_shape.digest(), anew.digest());
+    EXPECT_NE(with_shape.digest(), first.digest());
+    const Spheres far = moved(spheres, 1.0);
+    EXPECT_EQ(prepared(far, &with_shape).tree->words(), prepared(far, nullptr).tree->words()) << "a shape was kept";
+    const Spheres few(later.begin(), later.begin() + 10);
+    EXPECT_FALSE(prepared(few, &with_shape).tree);
+    EXPECT_EQ(prepared(later, std::make_unique<pt::PreparedScene>(prepared(few, nullptr)).get()).tree->words(),
+              anew.tree->words());
+    const std::function<void(pt_sphere &)> changes[] = {
+        [](pt_sphere &sphere) { sphere.center[2] += 1e-6; }, [](pt_sphere &sphere) { sphere.radius *= 1.0001; },
+        [](pt_sphere &sphere) { sphere.motion[0] = 1e-6; }, [](pt_sphere &sphere) { sphere.material = 1; }};
+    for (std::size_t i = 0; i < std::size(changes); ++i) {
+        Spheres changed = later;
+        changed[777].material = 0;
+        const std::string digest = prepared(changed, nullptr).digest();
+        changes[i](changed[777]);
+        EXPECT_NE(prepared(changed, nullptr).digest(), digest) << i;
+    }
+}
+
+TEST(KeptShape, HasLampsOfTheirMaterials) {
+    std::vector<pt::Material> materials(3, pt::Material{glm::vec3(0.5F), glm::vec3(0), glm::vec3(0), 0});
+    materials[1].emission = glm::vec3(1);
+    materials[2].emission = glm::vec3(2);
+    Spheres spheres = heap(ball_count, 0.0); // of the first two
+    spheres[0].material = 2;
+    const auto digest = [&] { return prepared_scene_of({materials, pt::SphereSource(spheres, {}), {}}, 50).digest(); };
+    const std::string before = digest();
+    spheres[3].material = 2;
+    EXPECT_NE(digest(), before);
+}
+
+} // namespace
+
+} // namespace kept_shapes

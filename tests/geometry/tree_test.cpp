@@ -1,0 +1,246 @@
+// Compares walks through a tree with tests of every sphere. PT_TEST_TREE_SCENES is the number of scenes.
+#include "tests/geometry/tree_scenes.h"
+#include "tests/kernel/kernel_render.h"
+#include "tests/support/checked_scene_of.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace {
+
+using FilmWords = KernelRender::FilmWords;
+
+std::size_t scene_count() {
+    const char *const wanted = std::getenv("PT_TEST_TREE_SCENES");
+    return wanted ? std::stoul(wanted) : 8; // one of each kind
+}
+
+std::size_t most_spheres() {
+    return scene_count() > 100 ? 2000 : 600;
+}
+
+constexpr std::uint32_t word_of_sides[6][2] = {{1, 2}, {1, 3}, {2, 0},
+                                               {2, 1}, {2, 2}, {2, 3}}; // low x, y, z, then high
+
+template <typename Change>
+void change_boxes(std::vector<glm::uvec4> &tree, std::uint32_t node_count, Change &&change) {
+    for (std::uint32_t node = 0; node < node_count; ++node) {
+        glm::uvec4 *const words = &tree[std::size_t{node} * pt::gpu::TREE_NODE_WORDS];
+        std::uint32_t *sides[6];
+        for (int i = 0; i < 6; ++i)
+            sides[i] = &words[word_of_sides[i][0]][static_cast<int>(word_of_sides[i][1])];
+        change(words[0], sides);
+    }
+}
+
+// Boxes cover the whole grid, so a walk tests every sphere.
+void open_boxes(std::vector<glm::uvec4> &tree, std::uint32_t node_count) {
+    change_boxes(tree, node_count, [](glm::uvec4 &head, std::uint32_t *const sides[6]) {
+        constexpr std::uint32_t exponents = 23 | 23 << 5 | 23 << 10; // 255 times 2^23 steps from the lowest place
+        constexpr std::uint32_t lowest = ~pt::gpu::TREE_REACH + 1;
+        head = {lowest, lowest, lowest, (head.w & ~0x7fffU) | exponents};
+        for (int i = 0; i < 6; ++i)
+            *sides[i] = i < 3 ? 0U : 0xffffffffU;
+    });
+}
+
+void shrink_boxes(std::vector<glm::uvec4> &tree, std::uint32_t node_count) {
+    change_boxes(tree, node_count, [](const glm::uvec4 &, std::uint32_t *const sides[6]) {
+        for (int i = 0; i < 6; ++i)
+            for (int shift = 0; shift < 32; shift += 8) {
+                const std::uint32_t side = *sides[i] >> shift & 255;
+                const std::uint32_t moved = i < 3 ? std::min(side + 8, 255U) : std::max(side, 8U) - 8;
+                *sides[i] = (*sides[i] & ~(255U << shift)) | moved << shift;
+            }
+    });
+}
+
+struct Compared {
+    bool same;
+    bool shrunk_same;
+};
+
+Compared compare(const pt::PreparedScene &prepared, const pt::Camera &camera) {
+    // Tests of every sphere use up the 65,535 loop trips that some drivers allow.
+    const std::size_t spheres = prepared.tree->sphere_count();
+    KernelRender render(pt::gpu_scene(prepared, camera, KernelRender::settings(spheres > 100 ? 2 : 4)));
+    render.take(spheres > 400 ? 2 : spheres > 40 ? 4 : 8);
+    Probe probe = render.probe_of_tree();
+    const FilmWords walked = render.film_by(probe);
+    render.radiance(walked);
+    shrink_boxes(render.tree(), prepared.tree->node_count());
+    const FilmWords shrunk = render.film_by(probe);
+    open_boxes(render.tree(), prepared.tree->node_count());
+    const FilmWords tested = render.film_by(probe);
+    render.radiance(tested);
+    return {walked == tested, shrunk == tested};
+}
+
+Compared compare(const pt::Scene &scene, const pt::Camera &camera) {
+    const std::vector<pt_sphere> spheres_of_caller = caller_spheres(scene.spheres);
+    return compare(prepared_scene_of({scene.materials, {spheres_of_caller, {}}, scene.planes}, 1), camera);
+}
+
+Compared compare_with_capsules(const pt::Scene &scene, const pt::Camera &camera) {
+    std::vector<pt_sphere> spheres;
+    std::vector<pt_sphere> capsules; // `motion` is the other end
+    for (const pt_sphere &sphere : caller_spheres(scene.spheres)) {
+        const bool is_swept = sphere.material != 0 && spheres.size() > capsules.size();
+        (is_swept ? capsules : spheres).push_back(sphere);
+        if (!is_swept)
+            continue;
+        const std::size_t other = capsules.size() % spheres.size();
+        std::ranges::copy(spheres[other].center, capsules.back().motion);
+        if (capsules.size() % 3 == 0) {
+            std::ranges::copy(capsules.front().center, capsules.back().center);
+            capsules.back().radius = capsules.front().radius;
+        }
+    }
+    std::vector<pt_sphere_array> arrays;
+    constexpr std::uint32_t stride = sizeof(pt_sphere);
+    if (!capsules.empty())
+        arrays.push_back({sizeof(pt_sphere_array),
+                          static_cast<std::uint32_t>(capsules.size()),
+                          {capsules[0].center, stride, PT_TYPE_FLOAT64},
+                          {&capsules[0].radius, stride, PT_TYPE_FLOAT64},
+                          {},
+                          {&capsules[0].material, stride, PT_TYPE_UINT32},
+                          {},
+                          {capsules[0].motion, stride, PT_TYPE_FLOAT64},
+                          {}});
+    return compare(prepared_scene_of({scene.materials, {spheres, arrays}, scene.planes}, 1), camera);
+}
+
+TEST(Tree, WalksFindWhatTestingEverySphereFinds) {
+    for (const bool with_capsules : {false, true}) {
+        TreeScenes scenes(with_capsules ? 2 : 1);
+        const std::size_t most = with_capsules && scene_count() <= 100 ? 100 : most_spheres();
+        std::size_t caught = 0;
+        for (std::size_t i = 0; i < scene_count(); ++i) {
+            const pt::Scene scene = scenes.next(most);
+            const pt::Camera camera = scenes.camera(scene);
+            SCOPED_TRACE("scene " + std::to_string(i) + ": " + scenes.kind() + ", " +
+                         std::to_string(scene.spheres.size()) + (with_capsules ? ", capsules" : ""));
+            const Compared compared = with_capsules ? compare_with_capsules(scene, camera) : compare(scene, camera);
+            EXPECT_TRUE(compared.same);
+            caught += compared.shrunk_same ? 0 : 1;
+        }
+        EXPECT_GT(caught, scene_count() / 4) << "boxes that are too small are not noticed";
+    }
+}
+
+pt::Scene heap_on_a_floor(TreeScenes &scenes) {
+    pt::Scene scene;
+    scene.materials = {{glm::vec3(0.5F), glm::vec3(0.0F), glm::vec3(20.0F), 0.0F},
+                       {glm::vec3(0.7F, 0.4F, 0.2F), glm::vec3(0.0F), glm::vec3(0.0F), 0.0F}};
+    scene.planes.push_back({{0, 1, 0}, 2.5, 1});
+    for (std::uint32_t i = 0; i < 90; ++i)
+        scene.spheres.push_back({{scenes.uniform(-2, 2), scenes.uniform(-2, 2), scenes.uniform(-2, 2)},
+                                 scenes.uniform(0.1, 0.9),
+                                 glm::dvec3(0.0),
+                                 i == 40 ? 0U : 1U});
+    return scene;
+}
+
+pt::Camera far_away(double tan_half_fov) {
+    return {{0.1, 0.2, 4e5}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, tan_half_fov, 0.0, 1.0};
+}
+
+// The camera is 10^5 times the scene's size away. A narrow view rounds depths to few values. A wide one sees the
+// horizon.
+TEST(Tree, RaysFromFarAwayFindWhatTestingEverySphereFinds) {
+    TreeScenes scenes(9);
+    const pt::Scene scene = heap_on_a_floor(scenes);
+    for (const double tan_half_fov : {1e-5, 0.5})
+        EXPECT_TRUE(compare(scene, far_away(tan_half_fov)).same) << tan_half_fov;
+}
+
+// Compares with a tree that has the shape for the reflected spheres. Its boxes are equally good, but in reverse order.
+// Returns nothing if the trees are equal or no shape was reused.
+std::optional<bool> is_seen_alike(const pt::Scene &scene, const pt::Camera &camera) {
+    const std::vector<pt_sphere> spheres = caller_spheres(scene.spheres);
+    std::vector<pt_sphere> reflected = spheres;
+    for (pt_sphere &sphere : reflected)
+        for (int axis = 0; axis < 3; ++axis) {
+            sphere.center[axis] = -sphere.center[axis];
+            sphere.motion[axis] = -sphere.motion[axis];
+        }
+    pt::WorkProgress nobody;
+    const auto prepared = [&](const std::vector<pt_sphere> &of, const pt::PreparedScene *shape) {
+        return pt::PreparedScene({scene.materials, {of, {}}, scene.planes}, 1, shape, nobody);
+    };
+    const pt::PreparedScene first = prepared(reflected, nullptr);
+    const pt::PreparedScene with_shape = prepared(spheres, &first);
+    const pt::PreparedScene anew = prepared(spheres, nullptr);
+    if (with_shape.tree->words() == anew.tree->words())
+        return std::nullopt;
+    const KernelRender render_kept(pt::gpu_scene(with_shape, camera, KernelRender::settings(3)));
+    const KernelRender render_new(pt::gpu_scene(anew, camera, KernelRender::settings(3)));
+    EXPECT_EQ(render_kept.features(), render_new.features());
+    Probe probe = render_kept.probe_of_tree();
+    const FilmWords film_kept = render_kept.film_by(probe);
+    probe.set_scene(render_new.words());
+    const FilmWords film_new = render_new.film_by(probe);
+    render_kept.radiance(film_kept);
+    return film_kept == film_new;
+}
+
+TEST(Tree, WalksFindTheSameWhateverItsShape) {
+    TreeScenes scenes(3);
+    const std::size_t count = 3 * scene_count() / 4;
+    std::size_t compared = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const pt::Scene scene = scenes.next(most_spheres());
+        const pt::Camera camera = scenes.camera(scene);
+        SCOPED_TRACE("scene " + std::to_string(i) + ": " + scenes.kind() + ", " + std::to_string(scene.spheres.size()));
+        const auto alike = is_seen_alike(scene, camera);
+        EXPECT_TRUE(alike.value_or(true));
+        compared += alike ? 1 : 0;
+    }
+    EXPECT_GE(compared, count / 4) << "hardly any shape was kept";
+}
+
+TEST(Tree, RaysFromFarAwayFindTheSameWhateverItsShape) {
+    TreeScenes scenes(12);
+    int compared = 0;
+    for (int i = 0; i < 4; ++i) {
+        const auto alike = is_seen_alike(heap_on_a_floor(scenes), far_away(1e-5));
+        EXPECT_TRUE(alike.value_or(true)) << i;
+        compared += alike ? 1 : 0;
+    }
+    EXPECT_GE(compared, 2);
+}
+
+TEST(Tree, WalksThatADriverCutsAreTold) {
+    const std::uint64_t budget = probe_device().limits().loop_trip_budget;
+    if (budget > 1'000'000)
+        GTEST_SKIP() << "this driver does not end loops";
+    TreeScenes scenes(10);
+    pt::Scene scene;
+    scene.materials = {{glm::vec3(0.5F), glm::vec3(0.0F), glm::vec3(1.0F), 0.0F},
+                       {glm::vec3(0.5F), glm::vec3(0.0F), glm::vec3(0.0F), 0.0F}};
+    for (std::uint64_t i = 0; i < 2 * budget; ++i)
+        scene.spheres.push_back(
+            {{scenes.uniform(-2, 2), scenes.uniform(-2, 2), 0}, 1e-3, glm::dvec3(0.0), i == 0 ? 0U : 1U});
+    const std::vector<pt_sphere> spheres_of_caller = caller_spheres(scene.spheres);
+    const pt::PreparedScene prepared = prepared_scene_of({scene.materials, {spheres_of_caller, {}}, {}}, 1);
+    const pt::Camera camera{{0, 0, 5}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, 0.0, 1.0};
+    KernelRender render(pt::gpu_scene(prepared, camera, KernelRender::settings(2)));
+    render.take(1);
+    Probe probe = render.probe_of_tree();
+    const FilmWords walked = render.film_by(probe);
+    EXPECT_NO_THROW(render.radiance(walked));
+    open_boxes(render.tree(), prepared.tree->node_count());
+    const FilmWords cut = render.film_by(probe);
+    if (cut == walked)
+        GTEST_SKIP() << "this version of the driver does not end loops";
+    EXPECT_ANY_THROW(render.radiance(cut));
+}
+
+} // namespace

@@ -1,0 +1,120 @@
+// Host and kernel have the same layout of push constants and the scene buffer.
+#include "lib/kernel/gpu_scene.h"
+#include "lib/scene/seen_scene.h"
+#include "push_layout.spv.h"
+#include "tests/kernel/probe.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <vector>
+
+namespace {
+
+TEST(GpuLayout, KernelReadsEachPushConstantWhereTheHostWritesIt) {
+    pt::gpu::FrameConstants frame{};
+    frame.camera = {{1, 2, 3}, 4, {5, 6, 7}, 8, {9, 10, 11}, 12, 25, 26, {27, 28}};
+    frame.seed = {13, 14};
+    frame.film_scale = 15;
+    frame.film_first_pixel = 16;
+    frame.strip_first_pixel = 17;
+    frame.strip_pixel_count = 18;
+    frame.first_entry = 19;
+    frame.film_part = 20;
+    frame.is_first = 21;
+    frame.first_sample = 22;
+    frame.sample_count = 23;
+    frame.share = 24;
+    const auto seen = Probe(push_layout_spirv(), sizeof frame).run<float>({}, 28, frame, 1);
+    for (int i = 0; i < 28; ++i)
+        EXPECT_EQ(seen[static_cast<std::size_t>(i)], static_cast<float>(i + 1));
+}
+
+pt::Camera camera_at(glm::dvec3 position) {
+    return {position, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, 0.25, 0.75};
+}
+
+// The order in the buffer is lamp, other spheres, planes.
+pt::Scene small_scene() {
+    pt::Scene scene;
+    scene.materials = {{{0.5F, 0.25F, 0}, {0, 0, 0}, {0, 0, 0}, 0},
+                       {{0.25F, 0.25F, 0.25F}, {0.75F, 0.75F, 0.75F}, {0, 0, 0}, 40},
+                       {{0, 0, 0}, {0, 0, 0}, {30, 60, 90}, 0}};
+    scene.spheres = {{{1, 2, 3}, 0.5, {4, 0, 0}, 1}, {{0, 9, 0}, 2, {0, 0, 0}, 2}};
+    scene.planes = {{{0, 1, 0}, 4, 0}};
+    return scene;
+}
+
+pt::GpuScene gpu_scene_of(const pt::Scene &scene, const pt::Camera &camera) {
+    return pt::gpu_scene(pt::PreparedScene(scene), camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4});
+}
+
+TEST(GpuLayout, WhatTheSceneDoesNotUseIsNotInTheBuffer) {
+    pt::Scene scene = small_scene();
+    scene.materials[1].specular = {0, 0, 0};
+    scene.spheres[0].motion = {0, 0, 0};
+    const pt::GpuScene gpu_scene = gpu_scene_of(scene, camera_at({0, 0, 1}));
+    EXPECT_FALSE(gpu_scene.features[pt::gpu::ID_GLOSS]);
+    EXPECT_FALSE(gpu_scene.features[pt::gpu::ID_MOTION]);
+    EXPECT_EQ(gpu_scene.words.size(), 9U);
+}
+
+// Curved planes precede flat ones. A lamp with a radius of 2048 times its distance becomes one.
+TEST(GpuLayout, HugeSpheresArePlanesWithACurvature) {
+    pt::Scene scene = small_scene();
+    scene.spheres.push_back({{0, -1026, 1}, 1024, {0, 0, 0}, 0});
+    scene.spheres.push_back({{0, 0, 262147}, 262144, {0, 0, 0}, 2});
+    const pt::Camera camera = camera_at({0, 0, 1});
+    const pt::GpuScene gpu_scene = gpu_scene_of(scene, camera);
+    const pt::Features &features = gpu_scene.features;
+    EXPECT_EQ(features[pt::gpu::ID_SPHERE_COUNT], 2U);
+    EXPECT_EQ(features[pt::gpu::ID_PLANE_COUNT], 3U);
+    EXPECT_EQ(features[pt::gpu::ID_LAMP_COUNT], 1U);
+    EXPECT_TRUE(features[pt::gpu::ID_CURVATURE]);
+
+    const std::vector<glm::vec4> &words = gpu_scene.words;
+    ASSERT_EQ(words.size(), 5U * 4 + 2 + 3);
+    EXPECT_EQ(words[2], glm::vec4(0, 1, 0, 2));
+    EXPECT_EQ(words[3], glm::vec4(0, 0, -1, 2));
+    EXPECT_EQ(words[4], glm::vec4(0, 1, 0, 4));
+    EXPECT_EQ(words[5 + 3], glm::vec4(30, 60, 90, 60));
+    EXPECT_EQ(words[10 + 2], glm::vec4(glm::dvec4(0.5, 0.25, 0, 0) / std::numbers::pi));
+    EXPECT_EQ(words[22], glm::vec4(1.0F / 1024, 0, 0, 0));
+    EXPECT_EQ(words[23], glm::vec4(1.0F / 262144, 0, 0, 0));
+    EXPECT_EQ(words[24], glm::vec4(0));
+}
+
+TEST(GpuLayout, OtherSpheresKeepTheirCenter) {
+    const pt::Material diffuse{{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0};
+    const pt::Material lamp{{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0};
+    const pt::Camera camera = camera_at({0, 0, 0});
+    const auto below = [](double radius, double height, double motion) {
+        return pt::Sphere{{0, -radius - height, 0}, radius, {motion, 0, 0}, 0};
+    };
+    const auto is_flat = [](const pt::Sphere &sphere, const pt::Material &material, const pt::Camera &seen_from) {
+        return pt::SeenSphere(sphere, material, seen_from).is_flat;
+    };
+    EXPECT_TRUE(is_flat(below(33, 1, 0), diffuse, camera));
+    EXPECT_TRUE(is_flat(below(33, -1, 0), diffuse, camera));
+    EXPECT_TRUE(is_flat(below(33, 0, 0), diffuse, camera));
+    EXPECT_FALSE(is_flat(below(31, 1, 0), diffuse, camera));
+    EXPECT_FALSE(is_flat(below(33, -33, 0), diffuse, camera)) << "the camera at its center";
+    EXPECT_TRUE(is_flat(below(33, 1, 1), diffuse, camera));
+    EXPECT_FALSE(is_flat(below(33, 1, 3), diffuse, camera));
+    EXPECT_TRUE(is_flat(below(65537, 1, 0), lamp, camera));
+    EXPECT_FALSE(is_flat(below(65535, 1, 0), lamp, camera));
+    pt::Camera closed = camera;
+    closed.shutter_close = closed.shutter_open;
+    EXPECT_TRUE(is_flat(below(33, 1, 1), diffuse, closed)) << "nothing moves while the shutter is shut";
+}
+
+TEST(GpuLayout, TheFilmUnitFollowsTheBrightestLampInUse) {
+    pt::Scene scene = small_scene();
+    EXPECT_EQ(pt::PreparedScene(scene).film_unit, 0.5); // 90 is in [2^6, 2^7)
+    scene.materials[2].emission = {1e14F, 0, 0};
+    EXPECT_EQ(pt::PreparedScene(scene).film_unit, 0x1p39); // 1e14 is in [2^46, 2^47)
+    scene.spheres.pop_back();
+    EXPECT_EQ(pt::PreparedScene(scene).film_unit, 1.0); // unused materials do not count
+}
+
+} // namespace

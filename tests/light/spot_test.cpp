@@ -1,0 +1,137 @@
+// For spots, the mean of 1 / density over directions into a region is the region's solid angle.
+#include "shaders/specialization.h"
+#include "spots.spv.h"
+#include "tests/kernel/probe.h"
+#include "tests/support/statistics.h"
+
+#include <gtest/gtest.h>
+#include <pt/pt.h>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <vector>
+
+namespace {
+
+struct DrawnSpot {
+    glm::vec3 direction;
+    float density;
+    std::uint32_t surface;
+    float distance; // 0: blocked
+    std::array<std::uint32_t, 2> reserved;
+};
+
+constexpr std::uint32_t first_lamp = 0;
+constexpr std::uint32_t second_lamp = 1;
+constexpr std::uint32_t ball = 2;
+constexpr std::uint32_t floor_plane = 3;
+constexpr std::uint32_t surface_count = 4;
+const std::array<glm::vec4, surface_count> shapes = {glm::vec4(1.0F, 0.6F, -3.0F, 0.2F),
+                                                     glm::vec4(-1.5F, 2.0F, -4.0F, 0.1F),
+                                                     glm::vec4(-1.0F, 0.7F, -1.5F, 0.7F), glm::vec4(0, 1, 0, 0)};
+constexpr float glow = -1.0F;
+
+struct SpotOf {
+    std::uint32_t lamp;
+    std::uint32_t surface;
+    float glossiness;
+};
+
+std::vector<DrawnSpot> draw_spots(const std::vector<SpotOf> &spots, std::uint32_t count) {
+    struct {
+        glm::vec4 position, normal;
+        std::uint32_t surface, seed, count;
+    } push{glm::vec4(2.5F, 1.1F, -0.5F, 0), glm::vec4(-0.8F, 0, -0.6F, 0), 0xffffffffU, 5, count};
+    std::array<std::uint32_t, pt::gpu::CONSTANT_COUNT> constants{};
+    constants[pt::gpu::ID_SPHERE_COUNT] = floor_plane;
+    constants[pt::gpu::ID_PLANE_COUNT] = 1;
+    constants[pt::gpu::ID_LAMP_COUNT] = 2;
+    constants[pt::gpu::ID_MAX_PATH_LENGTH] = 3;
+    constants[pt::gpu::ID_ESTIMATOR] = PT_ESTIMATOR_MIS;
+    constants[pt::gpu::ID_GLOSS] = 1;
+    constants[pt::gpu::ID_SPOT_COUNT] = static_cast<std::uint32_t>(spots.size());
+    constants[pt::gpu::ID_SCENE_SOURCE] = pt::gpu::SCENE_IN_UNIFORM;
+    constants[pt::gpu::ID_POINT_BLOCKS] = probe_point_blocks;
+    constants[pt::gpu::ID_SAMPLER] = PT_SAMPLER_RANDOM;
+    std::vector<glm::vec4> scene(4 * surface_count + spots.size());
+    for (std::uint32_t i = 0; i < surface_count; ++i)
+        scene[i] = shapes[i];
+    scene[surface_count + first_lamp] = glm::vec4(20);
+    scene[surface_count + second_lamp] = glm::vec4(40);
+    for (std::size_t i = 0; i < spots.size(); ++i)
+        scene[4 * surface_count + i] = {std::bit_cast<float>(pt::gpu::MATERIAL_INDEX_BITS + spots[i].lamp),
+                                        std::bit_cast<float>(pt::gpu::MATERIAL_INDEX_BITS + spots[i].surface), 0.5F,
+                                        spots[i].glossiness};
+    Probe probe(spots_spirv(), sizeof push, constants);
+    probe.set_scene(scene);
+    return probe.run<DrawnSpot>({}, count, push, count);
+}
+
+glm::dvec3 middle_of(const std::vector<DrawnSpot> &drawn, std::uint32_t surface) {
+    glm::dvec3 sum(0);
+    for (const DrawnSpot &sample : drawn)
+        if (sample.surface == surface && sample.distance > 0.0F)
+            sum += glm::dvec3(sample.direction);
+    return glm::normalize(sum);
+}
+
+// Returns the normal deviate of the mean of 1 / (density density_error) over a cone within the surface.
+double solid_angle_deviate(const std::vector<DrawnSpot> &drawn, std::uint32_t surface, double radius,
+                           double density_error) {
+    const glm::dvec3 middle = middle_of(drawn, surface);
+    std::vector<double> inverses;
+    std::size_t within = 0;
+    for (const DrawnSpot &sample : drawn) {
+        const glm::dvec3 chord = glm::dvec3(sample.direction) - middle;
+        const bool counts = sample.surface == surface && sample.distance > 0.0F && glm::length(chord) < radius;
+        inverses.push_back(counts ? 1.0 / (double{sample.density} * density_error) : 0.0);
+        within += counts ? 1 : 0;
+    }
+    EXPECT_GT(within, drawn.size() / 50) << "too few to tell anything";
+    const statistics::Moments moments = statistics::moments(inverses);
+    const double solid_angle = std::numbers::pi * radius * radius; // a cap's, by its chord (Archimedes)
+    return (moments.mean - solid_angle) / std::sqrt(moments.variance / static_cast<double>(drawn.size()));
+}
+
+struct SpotCase {
+    const char *name;
+    std::vector<SpotOf> spots;
+    std::uint32_t surface;
+    double radius; // the cone's, as a chord; within the surface, without very rare directions
+};
+
+class SpotDirections : public testing::TestWithParam<SpotCase> {};
+
+TEST_P(SpotDirections, FollowTheStatedDensity) {
+    constexpr std::uint32_t draws = 1U << 20;
+    const SpotCase &of = GetParam();
+    const std::vector<DrawnSpot> drawn = draw_spots(of.spots, draws);
+    const double bound = statistics::normal_quantile(0.5e-6 / 8); // one false alarm in a million, two-sided
+    EXPECT_LT(std::abs(solid_angle_deviate(drawn, of.surface, of.radius, 1.0)), bound);
+    EXPECT_GT(std::abs(solid_angle_deviate(drawn, of.surface, of.radius, 1.03)), bound) << "3% too dense must show";
+    EXPECT_GT(std::abs(solid_angle_deviate(drawn, of.surface, of.radius, 0.97)), bound) << "3% too thin must show";
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Of, SpotDirections,
+    testing::Values(
+        SpotCase{"Glow", {{first_lamp, floor_plane, glow}}, floor_plane, 0.1},
+        SpotCase{"TwoGlows", {{first_lamp, floor_plane, glow}, {second_lamp, floor_plane, glow}}, floor_plane, 0.1},
+        SpotCase{"ImageInPlane", {{first_lamp, floor_plane, 200}}, floor_plane, 0.05},
+        SpotCase{"ImageInSphere", {{second_lamp, ball, 200}}, ball, 0.008},
+        SpotCase{"TwoImagesInSphere", {{first_lamp, ball, 50}, {second_lamp, ball, 50}}, ball, 0.015},
+        SpotCase{"GlowAndImage", {{first_lamp, floor_plane, glow}, {first_lamp, floor_plane, 100}}, floor_plane, 0.05},
+        SpotCase{"OneOfMany",
+                 {{first_lamp, floor_plane, glow},
+                  {second_lamp, ball, 100},
+                  {first_lamp, ball, 100},
+                  {second_lamp, floor_plane, 300}},
+                 floor_plane,
+                 0.05},
+        SpotCase{"Sharp", {{second_lamp, ball, 1e5F}}, ball, 0.002}),
+    [](const auto &param) { return param.param.name; });
+
+} // namespace

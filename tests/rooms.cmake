@@ -1,0 +1,175 @@
+# The library's tests, by rooms: api/ (the calls of pt.h), film/ (sums, their error, and images), geometry/ (scenes, cameras,
+# trees and first hits), light/ (samples of lamps, and radiance), kernel/ (its code and data), vulkan/ (devices and the memory
+# of devices), accuracy/ (functions of the kernel against long double). Each room has tests without a device, in
+# pt_host_tests, and with one, in pt_device_tests: two programs, because each links the library.
+pt_add_tests(
+  host
+  api/guard_test.cpp
+  api/prepared_scene_test.cpp
+  api/render_settings_test.cpp
+  film/adaptive_rule_test.cpp
+  film/comparison_test.cpp
+  film/error_estimate_test.cpp
+  film/film_bytes_test.cpp
+  film/film_calls_test.cpp
+  film/film_parts_test.cpp
+  film/film_test.cpp
+  film/image_test.cpp
+  film/pixel_format_test.cpp
+  film/pixel_sums_test.cpp
+  film/tile_errors_test.cpp
+  film/tile_samples_test.cpp
+  geometry/camera_test.cpp
+  geometry/displacement_test.cpp
+  geometry/hidden_surfaces_test.cpp
+  geometry/kept_shape_test.cpp
+  geometry/outlying_test.cpp
+  geometry/ray_start_test.cpp
+  geometry/scene_test.cpp
+  geometry/sphere_array_rules_test.cpp
+  geometry/sphere_array_test.cpp
+  geometry/sphere_order_test.cpp
+  geometry/sphere_source_test.cpp
+  geometry/sphere_tree_test.cpp
+  geometry/tree_cuts_test.cpp
+  geometry/twins_test.cpp
+  kernel/own_kernel_clock_test.cpp
+  kernel/scene_blocks_test.cpp
+  kernel/scene_features_test.cpp
+  kernel/schedule_test.cpp
+  kernel/specialised_code_test.cpp
+  light/lamp_tree_test.cpp
+  light/light_spots_test.cpp
+  light/point_sequence_test.cpp
+  light/small_lamps_test.cpp
+  vulkan/device_choice_test.cpp
+)
+target_precompile_headers(pt_host_tests PRIVATE ${PROJECT_SOURCE_DIR}/lib/vulkan/api.h <gtest/gtest.h>)
+# Of a hundred thousand spheres and more, which take half a minute each with sanitizers; other tests build smaller trees.
+if(PT_SANITIZE)
+  set_tests_properties(
+    host PROPERTIES ENVIRONMENT "GTEST_FILTER=-TreeCuts.OfMany*:SphereOrder.GivesEach*:SphereOrder.TellsHowFar*"
+  )
+endif()
+set_tests_properties(host PROPERTIES LABELS quick)
+
+pt_add_tests(
+  device
+  api/accuracy_test.cpp
+  api/arguments_test.cpp
+  api/context_test.cpp
+  api/errors_test.cpp
+  api/in_use_test.cpp
+  api/kept_kernels_test.cpp
+  api/log_test.cpp
+  api/polling_test.cpp
+  api/rounding_test.cpp
+  api/set_scene_test.cpp
+  api/struct_size_test.cpp
+  film/adaptive_test.cpp
+  film/coverage_test.cpp
+  film/estimate_on_device_test.cpp
+  film/film_on_device_test.cpp
+  film/film_sum_test.cpp
+  film/host_fold_test.cpp
+  film/readback_test.cpp
+  film/readback_to_buffer_test.cpp
+  film/resolve_test.cpp
+  film/saved_film_test.cpp
+  film/split_into_calls_test.cpp
+  film/split_over_devices_test.cpp
+  film/unknown_error_test.cpp
+  geometry/first_hit_test.cpp
+  geometry/hidden_from_camera_test.cpp
+  geometry/tree_path_test.cpp
+  geometry/tree_test.cpp
+  kernel/gpu_layout_test.cpp
+  kernel/kernel_test.cpp
+  kernel/probe.cpp
+  kernel/render_device_test.cpp
+  kernel/trace_pipelines_test.cpp
+  vulkan/borrowed_device_test.cpp
+  vulkan/buffer_test.cpp
+  vulkan/instance_test.cpp
+  vulkan/own_vulkan_test.cpp
+  vulkan/submission_test.cpp
+)
+# What the kernel computes. Not with sanitizers: these spend their minutes in the kernel and the driver, not in this code.
+if(NOT PT_SANITIZE)
+  target_sources(
+    pt_device_tests
+    PRIVATE accuracy/camera_test.cpp
+            accuracy/comparison.cpp
+            accuracy/evaluation.cpp
+            accuracy/integer_test.cpp
+            accuracy/intersect_test.cpp
+            accuracy/lights_test.cpp
+            accuracy/maths_test.cpp
+            accuracy/phong_test.cpp
+            accuracy/sampling_test.cpp
+            accuracy/vertex_test.cpp
+            geometry/capsule_test.cpp
+            geometry/first_hit_random_test.cpp
+            geometry/intersection_test.cpp
+            geometry/lens_test.cpp
+            geometry/motion_test.cpp
+            geometry/negative_zero_test.cpp
+            geometry/tree_render_test.cpp
+            geometry/twins_render_test.cpp
+            kernel/scene_source_test.cpp
+            light/estimator_test.cpp
+            light/lamp_test.cpp
+            light/lamp_tree_choice_test.cpp
+            light/lamp_tree_on_device_test.cpp
+            light/omitted_code_test.cpp
+            light/opacity_test.cpp
+            light/random_light_test.cpp
+            light/sampler_sobol_test.cpp
+            light/sampler_test.cpp
+            light/spot_test.cpp
+  )
+endif()
+target_precompile_headers(pt_device_tests REUSE_FROM pt_host_tests)
+foreach(
+  probe
+  accuracy_skips
+  camera_items
+  distance_items
+  film_sums
+  integer_items
+  intersection
+  lamp_items
+  lamps
+  phong_items
+  push_layout
+  recurrence
+  sample_numbers
+  sampling_items
+  spots
+  vertex_items
+)
+  pt_embed_shader(pt_device_tests ${CMAKE_CURRENT_SOURCE_DIR}/kernel/probe/${probe}.comp)
+endforeach()
+if(TARGET pt-glsl)
+  target_sources(pt_device_tests PRIVATE api/reload_test.cpp kernel/shader_source_test.cpp)
+  target_compile_definitions(pt_device_tests PRIVATE PT_TEST_SHADER_DIR="${PROJECT_SOURCE_DIR}/shaders")
+  # A program that has the library's objects in itself finds the module by name. By RPATH, not RUNPATH, which does not count
+  # where AddressSanitizer stands between the program and dlopen.
+  set_target_properties(pt_device_tests PROPERTIES BUILD_RPATH $<TARGET_FILE_DIR:pt-glsl>)
+  target_link_options(pt_device_tests PRIVATE -Wl,--disable-new-dtags)
+  add_dependencies(pt_device_tests pt-glsl)
+endif()
+# What is quick, and all else in two halves, which are among the first.
+set(quick "ApiTest.*:ExactnessTest.*:Film.*:Resolve.*")
+add_test(NAME device.quick COMMAND ${pt_leak_checked} $<TARGET_FILE:pt_device_tests> --gtest_filter=${quick})
+set_tests_properties(device.quick PROPERTIES LABELS quick)
+# With sanitizers without what takes a second or more in the kernel and the compiler of its driver, and reaches nothing of the
+# library that others do not.
+if(PT_SANITIZE)
+  string(APPEND quick ":AdaptiveTest.EachTile*:EstimateTest.*ThatOfTheHost:FirstHit.Is*:Hidden*:KernelTest.*:Rounding*:Tree.*:WalkSteps.*")
+  set(fewer ";PT_TEST_SPLITS=1")
+endif()
+set(rest "GTEST_FILTER=-${quick};GTEST_TOTAL_SHARDS=2${fewer}")
+add_test(NAME device.second_half COMMAND ${pt_leak_checked} $<TARGET_FILE:pt_device_tests>)
+set_tests_properties(device PROPERTIES ENVIRONMENT "${rest};GTEST_SHARD_INDEX=0" COST 70)
+set_tests_properties(device.second_half PROPERTIES ENVIRONMENT "${rest};GTEST_SHARD_INDEX=1" COST 70)
