@@ -12,7 +12,7 @@ import pathlib
 import random
 import sys
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "render"))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import calibration_scenes as fixed  # noqa: E402
 from calibration_scenes import ball, lamp  # noqa: E402
 

@@ -21,7 +21,7 @@ from dataclasses import replace
 import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / folder) for folder in ("lib/python", "tests/support", "tests/render", "tests/bench")]
+sys.path[:0] = [str(ROOT / folder) for folder in ("lib/python", "tests/support", "tests/bench")]
 import pt  # noqa: E402
 import random_scenes  # noqa: E402
 from bench_scenes import NAMES, load_scene  # noqa: E402

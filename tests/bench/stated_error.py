@@ -2,7 +2,7 @@
 
     PT_LIBRARY=build/lib/libpt.so PT_PROGRAM=build/bin/pt python3 tests/bench/stated_error.py SET ... [--jobs N]
 
-A SET is `own` (cli/scenes and tests/render/calibration_scenes.py), `random:SEED` (the hundred of random_scenes.py), or
+A SET is `own` (cli/scenes and tests/bench/calibration_scenes.py), `random:SEED` (the hundred of random_scenes.py), or
 a folder of scene files. Errors are relative root mean squares over pixels and channels. They are measured against an image
 of many samples, whose error is at most a fifth of the measured one. The tables' rms is over seeds. --keep writes the
 estimator's input for some seeds as NumPy's .npz, to try other estimators.
@@ -22,7 +22,7 @@ from dataclasses import dataclass, field
 import numpy
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / folder) for folder in ("lib/python", "tests/support", "tests/render", "tests/bench")]
+sys.path[:0] = [str(ROOT / folder) for folder in ("lib/python", "tests/support", "tests/bench")]
 import pt  # noqa: E402
 import random_scenes  # noqa: E402
 from calibration_scenes import scenes as calibration_scenes  # noqa: E402

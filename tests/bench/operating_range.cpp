@@ -1,5 +1,4 @@
-// Prints how well images agree with exact values. Never fails, and takes minutes. Run pt_analytic_tests
-// --gtest_also_run_disabled_tests --gtest_filter=*OperatingRange*
+// Prints how well images agree with exact values. Never fails, and takes minutes.
 #include "tests/analytic/analytic_fixture.h"
 #include "tests/analytic/crop.h"
 #include "tests/analytic/scenes.h"
@@ -22,7 +21,7 @@ using namespace analytic;
 
 constexpr std::uint32_t range_batch_count = 16;
 
-class DISABLED_OperatingRange : public AnalyticFixture {
+class OperatingRange : public AnalyticFixture {
 protected:
     void measure(double value, const cli::SceneFile &scene, const pt_camera &camera, const Crop &crop, double expected,
                  std::uint32_t samples) {
@@ -80,7 +79,7 @@ void scale(cli::SceneFile &scene, double factor) {
     }
 }
 
-TEST_F(DISABLED_OperatingRange, Scale) {
+TEST_F(OperatingRange, Scale) {
     std::printf("\nunit of length\n");
     for (int exponent = -18; exponent <= 18; ++exponent) {
         cli::SceneFile scene = read_scene("01-above");
@@ -115,7 +114,7 @@ double area_in_motion(double distance, double way) {
     return sum;
 }
 
-TEST_F(DISABLED_OperatingRange, DistanceOfASphere) {
+TEST_F(OperatingRange, DistanceOfASphere) {
     for (const Look &look : looks) {
         std::printf("\ndistance from a sphere's surface / radius, %s\n", look.name);
         const glm::dvec3 across = glm::normalize(glm::cross(look.direction, glm::dvec3(0, 1, 0)));
@@ -151,7 +150,7 @@ double floor_under_lamp() {
     return sum / 2;
 }
 
-TEST_F(DISABLED_OperatingRange, DistanceOfALitFloor) {
+TEST_F(OperatingRange, DistanceOfALitFloor) {
     std::printf("\ndistance of a floor / distance of its lamp, from above\n");
     for (int exponent = 0; exponent <= 8; ++exponent) {
         const double distance = std::numbers::pi / 3.0 * std::pow(10.0, exponent); // no round numbers
@@ -163,7 +162,7 @@ TEST_F(DISABLED_OperatingRange, DistanceOfALitFloor) {
     }
 }
 
-TEST_F(DISABLED_OperatingRange, SizeOfALamp) {
+TEST_F(OperatingRange, SizeOfALamp) {
     std::printf("\nradius / distance of a lamp\n");
     for (int exponent = -15; exponent <= 2; ++exponent) {
         cli::SceneFile scene = read_scene("05-tiny-far");
@@ -177,7 +176,7 @@ TEST_F(DISABLED_OperatingRange, SizeOfALamp) {
     }
 }
 
-TEST_F(DISABLED_OperatingRange, SizeOfAFloorBall) {
+TEST_F(OperatingRange, SizeOfAFloorBall) {
     for (const double motion : {0.0, 1e-9, 1.0}) {
         std::printf("\nradius of a sphere that is the floor, motion %g\n", motion);
         for (int exponent = 4; exponent <= 17; ++exponent) {
@@ -193,7 +192,7 @@ TEST_F(DISABLED_OperatingRange, SizeOfAFloorBall) {
     }
 }
 
-TEST_F(DISABLED_OperatingRange, DistanceOfAWorld) {
+TEST_F(OperatingRange, DistanceOfAWorld) {
     for (const Look &look : looks) {
         std::printf("\ndistance of a lit world of size 3, %s\n", look.name);
         double expected = 0.0;
@@ -223,7 +222,7 @@ TEST_F(DISABLED_OperatingRange, DistanceOfAWorld) {
 }
 
 // From n = 3000 on, the albedo of the lobe is the cosine.
-TEST_F(DISABLED_OperatingRange, GlossinessUnderADome) {
+TEST_F(OperatingRange, GlossinessUnderADome) {
     std::printf("\nglossiness under a uniform dome\n");
     for (const double glossiness : {1e-30, 1e-12, 1e-7, 3e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10}) {
         cli::SceneFile scene = read_scene("12-phong-furnace-n3000");
@@ -232,7 +231,7 @@ TEST_F(DISABLED_OperatingRange, GlossinessUnderADome) {
     }
 }
 
-TEST_F(DISABLED_OperatingRange, GlossinessUnderALamp) {
+TEST_F(OperatingRange, GlossinessUnderALamp) {
     std::printf("\nglossiness under a lamp that fills the lobe\n");
     for (const double glossiness : {3e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9}) {
         cli::SceneFile scene = read_scene("13-mirror-n1e6");
@@ -241,7 +240,7 @@ TEST_F(DISABLED_OperatingRange, GlossinessUnderALamp) {
     }
 }
 
-TEST_F(DISABLED_OperatingRange, Emission) {
+TEST_F(OperatingRange, Emission) {
     std::printf("\nemission of the only lamp\n");
     for (int exponent = -45; exponent <= 18; exponent += 3) {
         cli::SceneFile scene = read_scene("01-above");
@@ -252,7 +251,7 @@ TEST_F(DISABLED_OperatingRange, Emission) {
     }
 }
 
-TEST_F(DISABLED_OperatingRange, RatioOfLamps) {
+TEST_F(OperatingRange, RatioOfLamps) {
     std::printf("\na hidden lamp's emission / the seen one's\n");
     for (int exponent = 0; exponent <= 18; ++exponent) {
         cli::SceneFile scene = read_scene("20-ratio1e8");

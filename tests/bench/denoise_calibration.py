@@ -1,6 +1,6 @@
 """Prints whether denoised images are worse than raw images, and how good their stated errors are.
 
-    python3 tests/render/denoise_calibration.py [--own] [--images FOLDER] ...
+    python3 tests/bench/denoise_calibration.py [--own] [--images FOLDER] ...
 
 --own takes the scenes of cli/scenes and calibration_scenes.py. --hundred SEED takes scenes of tests/bench/random_scenes.py.
 PT_LIBRARY and PT_PROGRAM name the library and the program. Needs NumPy and Open Image Denoise (pip install pyoidn, or
@@ -22,7 +22,7 @@ from dataclasses import dataclass
 import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / part) for part in ("lib/python", "tests/support", "tests/render", "tests/bench")]
+sys.path[:0] = [str(ROOT / part) for part in ("lib/python", "tests/support", "tests/bench")]
 import pt  # noqa: E402
 from calibration_scenes import scenes  # noqa: E402
 from pt._program import Program  # noqa: E402

@@ -1,6 +1,6 @@
 """Prints the tables of shaders/README.md that compare stated errors of images with true errors.
 
-    python3 tests/render/error_calibration.py [--before OLD.so] ...
+    python3 tests/bench/error_calibration.py [--before OLD.so] ...
 
 PT_LIBRARY names the library. Scenes come from cli/scenes and calibration_scenes.py. The true error is the root mean
 squared relative error over 24 seeds (96 for at most 8192 pixels). It is measured against an image of many samples with
