@@ -79,7 +79,7 @@ struct Limit {
     real alone;        // > 0 if the pixel is brighter than its surroundings
 };
 
-PT_CONSTANT real E_SQUARED = 7.39; // ratio from which an edge's logarithm exceeds 1, and a pixel stands out
+PT_CONSTANT real E_SQUARED = 7.39; // e^2: a pixel stands out if its ratio of squares exceeds this
 
 // If the darker part has a fraction f of the samples, standard_error / (mean - lesser) = sqrt(f / (1 - f)). For halves
 // this is 1, up to rounding.

@@ -98,7 +98,7 @@ uint material_words(uint surface)
 // Lamps outside the tree come first, with the same numbers as surfaces.
 const uint WALKED_LAMPS = LAMP_COUNT - TREE_LAMPS;
 
-// The lamp's number, or at least LAMP_COUNT for other surfaces.
+// Returns the lamp's number. For other surfaces it is LAMP_COUNT or greater.
 uint lamp_of(uint surface)
 {
     if (TREE_LAMPS == 0u)

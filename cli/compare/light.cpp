@@ -23,7 +23,7 @@ pt_compared_image compared_image(const TestedImage &image) {
     return compared;
 }
 
-// For example "max_samples = 20: must be ...", without the library's names of the two pictures.
+// Returns for example "max_samples = 20: must be ...". The library's "second" becomes "the reference".
 std::string rule_of(const LibraryError &error) {
     return error.in_words([](const BrokenRule &rule) {
         return std::string(rule.subject == "second" ? "the reference: " : "") + rule.text(rule.member);

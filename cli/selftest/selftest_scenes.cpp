@@ -114,8 +114,9 @@ SelftestScene huge_ball_as_floor() {
 }
 
 // A glossy floor in a dome of radiance 1. The integral of (n + 2) / (2 pi) cos^n g cos, with g from the mirror
-// direction r, is the cosine of r, because only components along r contribute. The horizon does not clip the lobe. Its
-// variance 1 / n in the plane of incidence changes the cosine by tan / sqrt(n).
+// direction r, is the cosine of r, because only components along r contribute. The horizon does not clip the lobe. In
+// the plane of incidence its directions have the variance 1 / n, so a sample's cosine has the relative standard
+// deviation tan / sqrt(n) at the angle of incidence.
 SelftestScene sharp_lobe() {
     const SceneFile scene = floor_scene(R"(
         "materials": {"dome": {"emission": 1}, "floor": {"specular": 1, "glossiness": 1e6}},

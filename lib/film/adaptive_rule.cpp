@@ -140,7 +140,8 @@ AdaptiveRound round_after(const AdaptiveRound &round, const TileSamples &samples
         return next;
     }
     const std::int32_t content = std::max(round.number, by_round.begin()->first);
-    if (sees_too_little && excess <= 1.0) { // a lower bound would not help
+    // Light that no sample hit keeps the target away, which the floor serves.
+    if (sees_too_little && excess <= 1.0) {
         next.number = content;
         return next;
     }

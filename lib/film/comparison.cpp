@@ -179,7 +179,7 @@ struct Difference {
     double skewness; // towards the other sign, >= 0
 
     // Returns an upper bound for the probability of this difference in equal light. Noise explains up to 1 / event
-    // deviations, absent events the rest.
+    // standard deviations of z. Rare events that are absent by chance explain the rest.
     double probability() const {
         const double by_noise = event > 0.0 ? std::min(z, 1.0 / event) : z;
         const double by_events = event > 0.0 ? (z - by_noise) / event : 0.0;

@@ -41,7 +41,7 @@ struct PixelErrors {
     Numbers met_once{};        // relative squares of light that one part hit, with r from the other part
     Numbers as_lamps{};        // relative squares of light that one part hit, with r = x
     Numbers met_again{};       // number of bright values in both parts
-    Numbers unseen{};          // relative squares of neighbors' light that no sample hit
+    Numbers unseen{};          // expected relative squares from light that no sample of the pixel hit, by its neighbors
 };
 
 PixelErrors pixel_errors(const TileValues &tile);
@@ -66,7 +66,7 @@ struct TileErrors {
     double unseen = 0.0;
     std::uint64_t rejected = 0;
 
-    // The relative squares without knowledge from other tiles.
+    // The relative squares as estimated from this tile alone.
     double own_square() const { return relative_square.sum + as_lamps.sum + unseen; }
 };
 

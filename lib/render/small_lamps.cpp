@@ -144,7 +144,8 @@ void add_pieces(std::vector<LampPiece> &pieces, std::size_t first, Disc disc, in
     }
 }
 
-// A moving lamp is seen at several moments. Moments more than a pixel apart also stand for the pixels between them.
+// A moving lamp is seen at several moments. If the lamp moves more than a pixel
+// between two moments, they also stand for the pixels between.
 void add_lamp(std::vector<LampPiece> &pieces, const PreparedScene &scene, const Camera &camera, const Window &window,
               const SeenSphere &lamp, const glm::dvec3 &emission) {
     constexpr double most_moments = 64.0;

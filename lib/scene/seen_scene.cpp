@@ -95,9 +95,9 @@ void require_held_motions(const SeenScene &seen, const Scene &scene, const Camer
                                    ") must move less than a 32nd of it while the shutter is open"});
 }
 
-// Let the center be at a from the disc's plane and c from its axis. Squared distances from the disc's points are a^2 +
-// max(c - radius, 0)^2 to a^2 + (c + radius)^2. A moving ball's radius grows by half its way. Float32's error is
-// proportional to the ball's size or, for a huge ball, to its distance.
+// Let a be the center's distance from the disc's plane, and c its distance from the axis. Squared distances from the
+// disc's points are a^2 + max(c - radius, 0)^2 to a^2 + (c + radius)^2. A moving ball's radius grows by half its way.
+// Float32's error is proportional to the ball's size or, for a huge ball, to its distance.
 bool divides_start(const MovingBall &ball, const Camera &camera, double slack) {
     if (camera.start_radius == 0.0 || !may_hold_origin(ball, camera.start_radius + slack))
         return false;

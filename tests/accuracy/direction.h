@@ -42,7 +42,7 @@ inline Real rotation_bound(const glm::vec3 &axis, Real sine) {
     return sine * (8.3L * half_ulp + 2.5L * std::sqrt(Real{2}) * length) + length + 3.5L * half_ulp;
 }
 
-// `share` is the relative error of one_minus_cos. The polar angle has the error share h / sine. sine = sqrt(h (2 - h))
+// `share` is the relative error of h = 1 - cos. The polar angle has the error share h / sine. sine = sqrt(h (2 - h))
 // has u + 9 u, and 1 - h has u / 2.
 inline Real direction_about_bound(const glm::vec3 &axis, Real h, Real share) {
     const Real sine = std::sqrt(h * (2 - h));

@@ -104,7 +104,7 @@ std::string test_name(std::string name) {
     return "Scene" + name;
 }
 
-// Only the first judge is used, since the measured noise of few samples may be 0.
+// Only agrees() judges here (judge.h), because the noise measured with few samples may be 0.
 class WholeImage : public PixelFixture, public testing::WithParamInterface<std::string> {};
 
 TEST_P(WholeImage, PixelsAreInTheirPlaces) {

@@ -11,7 +11,7 @@ MOST = 14  # P(more | 90 pairs at this rate) < 10^-4
 
 
 def blocks(image):
-    """Radiance with the means of 4x4 pixels, whose errors depend on each other."""
+    """Replaces each pixel by the mean of its 4x4 block. Errors of neighbors are then correlated."""
     height, width = image.shape[:2]
     means = image.radiance.reshape(height // 4, 4, width // 4, 4, 3).mean(axis=(1, 3))
     return means.repeat(4, axis=0).repeat(4, axis=1)

@@ -111,7 +111,7 @@ struct DeviceCase {
     std::uint32_t tile_count;
     std::uint64_t samples;
     Device device;
-    // Least share of full slices, after warm-up, within a factor of 2 of the target.
+    // After warm-up, at least this fraction of the full slices takes half to twice the target time.
     double on_target;
 };
 

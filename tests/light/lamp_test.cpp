@@ -89,7 +89,7 @@ void expect_stated_probabilities(const std::vector<Lamp> &lamps) {
     EXPECT_GT(statistics::chi_square_deviate(observed, wrong), lamp_bound) << "probabilities wrong by 3% must show";
 }
 
-// The second scene has few enough lamps for the kernel to keep their views.
+// The second scene has so few lamps that the kernel keeps the LampView of each (KEEP_VIEWS).
 TEST(LampChoice, FollowsTheStatedProbability) {
     expect_stated_probabilities(uneven_lamps);
     std::vector<Lamp> few(uneven_lamps.begin(), uneven_lamps.begin() + 4);

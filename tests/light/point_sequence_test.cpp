@@ -158,7 +158,7 @@ std::uint32_t reversed(std::uint32_t word) {
     return result;
 }
 
-// Computes Vegdahl's hash (2021) of the reversed word with 64 bits.
+// Vegdahl's hash (2021) of the reversed word, in 64-bit arithmetic.
 std::uint32_t scrambled_in_64_bits(std::uint32_t coordinate, std::uint32_t seed) {
     constexpr std::uint64_t modulus = std::uint64_t{1} << 32;
     std::uint64_t v = reversed(coordinate);

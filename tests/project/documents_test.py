@@ -60,7 +60,7 @@ def code_files():
 
 
 def names_of_code(text):
-    """Returns identifiers with an underscore that stand alone as code, and names of source files and folders."""
+    """Returns the code spans that are identifiers with an underscore, and those that name source files and folders."""
     spans = re.findall(r"`([\w./]+)(?:\(\))?`", re.sub(r"```.*?```", "", text, flags=re.DOTALL))
     others = {span for span in spans if re.search(r"/|\.(h|c|cpp|glsl|comp|py|json|md|sh|exr|png)$", span)}
     identifiers = {word for span in spans if span not in others for word in span.split(".") if "_" in word}

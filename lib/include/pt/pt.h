@@ -164,12 +164,12 @@ typedef struct pt_sphere_array {
     pt_column color;
     /** x, y, z of a second center, which makes each sphere a capsule: all points no farther than the radius from the
      * segment between center and end. FLOAT32 or FLOAT64; default none. A capsule that emits or moves gives
-     * PT_ERROR_INVALID_SCENE. If its length and radius exceed the distance from the camera, its surface is off by 2^-21
-     * of them. */
+     * PT_ERROR_INVALID_SCENE. If length + radius exceeds the distance from the camera, the surface is off by up to
+     * 2^-21 of length + radius. */
     pt_column end;
     /** Probability in [0, 1] that a ray hits the sphere. Otherwise the ray passes through it. Every camera, path and
-     * shadow ray decides at random for each sphere, so the product of the spheres' 1 - opacity passes. FLOAT32 or
-     * FLOAT64, rounded to a multiple of 1/255; default 1.
+     * shadow ray decides at random for each sphere. On average the product of the spheres' 1 - opacity of the light
+     * passes. FLOAT32 or FLOAT64, rounded to a multiple of 1/255; default 1.
      *
      * All samplers except PT_SAMPLER_RANDOM spread the decisions for one sphere evenly over 16 samples.
      *
@@ -308,16 +308,16 @@ typedef struct pt_accumulate_info {
     void *progress_user; /**< argument of progress */
     /** 0: none. Otherwise the call returns PT_TARGET_REACHED once pt_error_estimate.relative_rmse_high is at most this.
      * Pixels with lamps smaller than a pixel must also have enough samples to hit them. It returns PT_OK if
-     * sample_count runs out first, or if all pixels that need more have sample_limit samples. Finite, >= 0.
+     * sample_count runs out first, or if no pixel that it may sample is below sample_limit. Finite, >= 0.
      *
      * The error is checked when all pixels have a number of samples that pt_next_check returns. If tiles differ
      * (PT_SAMPLING_ADAPTIVE), it is checked after each round of sampling. So with the same sample_limit, the final
      * samples of each pixel do not depend on the split over calls, devices and saved films. */
     double target_error;
     uint32_t sampling; /**< PT_SAMPLING_* */
-    /** The most samples of a pixel after this call and later ones, if target_error is set; otherwise 0. While pixels
-     * that need more samples are at the limit, the other pixels take more, until all are at the limit. If it is smaller
-     * than the number that this call may reach, that number is the limit. */
+    /** The most samples of a pixel after this call and later ones, if target_error is set; otherwise 0. When the pixels
+     * that need more samples reach it, the other pixels take more, since the target is for the whole image. If it is
+     * smaller than the number that this call may reach, that number is the limit. */
     uint32_t sample_limit;
     /** NULL: all pixels get the same number, or as the target error decides. Otherwise element i is the number of
      * samples that tile i takes, 0 to sample_count. A tile takes the first samples that it lacks, from
@@ -433,9 +433,9 @@ typedef struct pt_create_info {
     const pt_vulkan *vulkan;
     const char *shader_dir; /**< a folder of changed GLSL files (pt/shaders.h); NULL or empty: the library's kernels */
     /** Functions that keep compiled kernels, so that later processes start sooner. Either may be NULL. pt_create calls
-     * load_kernels for each device. Calls that have built kernels call store_kernels at their end, even if they fail:
-     * pt_prepare, pt_accumulate, pt_reload_shaders and pt_readback of first hits, on GPUs also any pt_readback and
-     * pt_get_error_estimate. */
+     * load_kernels for each device. A call that has built kernels ends with store_kernels, even if it fails. Such calls
+     * are pt_prepare, pt_accumulate, pt_reload_shaders and pt_readback of first hits. On GPUs every pt_readback and
+     * pt_get_error_estimate may build kernels too. */
     pt_load_kernels_fn load_kernels;
     pt_store_kernels_fn store_kernels; /**< see load_kernels */
     void *kernels_user;                /**< argument of both functions */
