@@ -43,7 +43,7 @@ FAULTS = {"density of lamps by 3%": ("lights.glsl", "surface_of_lamp(choice.lamp
                                      "surface_of_lamp(choice.lamp)), 1.03 * density)"),
           "density of directions by 3%": ("phong.glsl", "0.5 / PI : density)", "0.5 / PI : 1.03 * density)"),
           "weight of spots": ("path.glsl", "towards.density * float(BRANCH_COUNT)", "towards.density")}
-NEEDED, MOST = (0.01, 0.003, 0.001), 1 << 16
+NEEDED, MOST, WIDE = (0.01, 0.003, 0.001), 1 << 13, (256, 128)
 
 
 class Images:
@@ -128,12 +128,12 @@ def changes(scenes):
 
 
 def samples_needed(scenes):
-    width, height = LARGE
+    width, height = WIDE
     print(f"{width}x{height}; a change of  " + "".join(f"{share:>9.1%}" for share in NEEDED))
     for name, scene in scenes.items():
         pair = [Images(scene, seed) for seed in (0, 1)]
         for images in pair:
-            images.begin(LARGE)
+            images.begin(WIDE)
         needed, samples, taken = [], SAMPLES, 0
         while len(needed) < len(NEEDED) and samples <= MOST:
             for images in pair:
