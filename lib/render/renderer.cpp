@@ -80,6 +80,7 @@ void Renderer::discard_samples() noexcept {
     round_ = {};
     samples_.clear();
     view_.forget_samples();
+    samples_for_lamps_.clear();
     forget_error();
 }
 

@@ -155,7 +155,7 @@ private:
     const std::vector<double> &tile_squares();
     bool is_on_target(double target_error);
     const std::vector<LampPiece> &small_lamps();
-    std::vector<std::uint64_t> samples_for_lamps();
+    const std::vector<std::uint64_t> &samples_for_lamps();
     std::uint64_t adaptive_from() const;
     void require_tiles(const pt_accumulate_info &wanted) const;
     void begin(const pt_accumulate_info &wanted, bool is_polled);
@@ -183,6 +183,7 @@ private:
     AdaptiveRound round_;
     std::optional<ErrorEstimate> error_; // computed on demand
     std::optional<std::uint64_t> rejected_samples_;
+    std::vector<std::uint64_t> samples_for_lamps_;
     std::vector<double> tile_squares_;
     std::vector<std::byte> mapped_image_;
     std::optional<std::vector<LampPiece>> small_lamps_; // computed on demand

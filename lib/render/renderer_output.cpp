@@ -110,14 +110,18 @@ const std::vector<LampPiece> &Renderer::small_lamps() {
 }
 
 // Returns the samples per pixel that each tile needs.
-std::vector<std::uint64_t> Renderer::samples_for_lamps() {
-    const TileGrid &grid = samples_.grid();
-    std::vector<std::uint64_t> needed(grid.count());
-    for (const LampPiece &piece : small_lamps()) {
-        std::uint64_t &of_tile = needed[grid.tile_at(piece.x, piece.y)];
-        of_tile = std::max(of_tile, samples_to_hit(piece, relative_offset, settings_->sampler == PT_SAMPLER_RANDOM));
+const std::vector<std::uint64_t> &Renderer::samples_for_lamps() {
+    if (samples_for_lamps_.empty()) {
+        const TileGrid &grid = samples_.grid();
+        const bool is_random = settings_->sampler == PT_SAMPLER_RANDOM;
+        std::vector<std::uint64_t> needed(grid.count());
+        for (const LampPiece &piece : small_lamps()) {
+            std::uint64_t &of_tile = needed[grid.tile_at(piece.x, piece.y)];
+            of_tile = std::max(of_tile, samples_to_hit(piece, relative_offset, is_random));
+        }
+        samples_for_lamps_ = std::move(needed);
     }
-    return needed;
+    return samples_for_lamps_;
 }
 
 const std::vector<double> &Renderer::tile_squares() {

@@ -11,8 +11,10 @@ import pathlib
 import statistics
 import sys
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from error_calibration import SceneRenderer, all_scenes  # noqa: E402
+sys.path[:0] = [str(pathlib.Path(__file__).resolve().parents[1] / folder) for folder in ("bench", "support")]
+from calibration_scenes import scenes  # noqa: E402
+from scene_file import FOLDER, read_scene  # noqa: E402
+from scene_renderer import SceneRenderer  # noqa: E402
 
 WIDTH, HEIGHT = 96, 48
 EVEN_SAMPLES = 2048
@@ -20,7 +22,8 @@ EVEN_SAMPLES = 2048
 
 def main():
     name, target, seeds = sys.argv[1], float(sys.argv[2]), int(sys.argv[3]) if len(sys.argv) > 3 else 96
-    scene = all_scenes()[name]
+    path = FOLDER / f"{name}.json"
+    scene = read_scene(path) if path.exists() else scenes()[name]
     differences, means, samples = [], [], []
     with SceneRenderer(scene) as renderer:
         for seed in range(300, 300 + seeds):

@@ -76,11 +76,6 @@ class Renderer:
         self.call("pt_get_stats", stats)
         return stats
 
-    def error_estimate(self):
-        error = structs.pt_error_estimate()
-        self.call("pt_get_error_estimate", error)
-        return error
-
 
 class SceneRenderer(Renderer):
     def __init__(self, scene, **create_info):
