@@ -1,4 +1,3 @@
-// Compares camera.glsl with long double.
 #include "camera_items.spv.h"
 #include "tests/accuracy/direction.h"
 #include "tests/accuracy/evaluation.h"
@@ -19,7 +18,7 @@ struct Item {
     glm::vec4 forward;
     std::uint32_t column, row;
     glm::vec2 place;
-    float lens_radius, lens_blur; // focus distance / image plane distance = radius / blur
+    float lens_radius, lens_blur; // radius / blur = focus distance / image plane distance
     glm::vec2 disc;
 };
 
@@ -53,12 +52,14 @@ std::vector<Item> items() {
     return items;
 }
 
-// An absolute bound with u = 2^-24 and W = forward + x right - y up. Products have 2 u (|x| + |y|) <= 2.9 u |W| and
-// sums 2 u |W|. For W / length(W), the dot product has 3 u / 2, sqrt 9 u and the division 5 u.
+// An absolute bound with u = 2^-24 and W = forward + x right - y up. The products add errors of 2 u (|x| + |y|) <= 2.9
+// u |W|, and the sums of 2 u |W|. Dividing W by its length adds 3 u / 2 for the dot product, 9 u for sqrt and 5 u for
+// the division.
 constexpr Real bound = (2.9L + 2 + 15.5L) * half_ulp;
 
-// The distance between lens ray and pinhole ray in the plane of focus, over their length. The radius has an error of 7
-// u: origin 2 u, its opposite in the direction 2 u, lack of unit length u, position in the image 2 u. `bound` is added.
+// The bound of the distance between lens ray and pinhole ray in the plane of focus, over their length. The radius adds
+// an error of 7 u: 2 u for the origin, 2 u for the direction's matching term, u for the direction's length and 2 u for
+// the position in the image.
 Real lens_bound(Real radius, Real distance) {
     return 7 * half_ulp * radius / distance + bound;
 }

@@ -1,4 +1,3 @@
-// Compares a function with its error bounds.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -13,7 +12,7 @@ namespace accuracy {
 using Real = long double;
 using Direction = glm::vec<3, Real>;
 
-constexpr Real half_ulp = 0x1p-24L; // of 1
+constexpr Real half_ulp = 0x1p-24L; // relative to 1
 
 class Comparison {
 public:
@@ -22,7 +21,7 @@ public:
     void add(Real value, Real exact, Real bound, const std::vector<float> &input);
     void add(const glm::vec3 &value, const Direction &exact, Real bound, const std::vector<float> &input);
 
-    // Prints the largest error, and the error nearest to its bound with its input. Fails the test if an error exceeds
+    // Prints the largest error, and the error nearest to its bound with its input. The test fails if an error exceeds
     // its bound, or if exact values shifted by 1.01 bounds would pass.
     void finish() const;
 

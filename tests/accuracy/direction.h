@@ -1,4 +1,4 @@
-// Directions in long double by the papers' definitions, and bounds of their float32 errors.
+// Directions in long double by the papers' definitions. Bounds of the float32 errors.
 #pragma once
 
 #include "tests/accuracy/comparison.h"
@@ -26,24 +26,25 @@ inline Direction turned_to(const glm::vec3 &float_axis, const Direction &vector)
     return v + k_v + glm::cross(k, k_v) / (1 + axis.z);
 }
 
-// The bounds below are absolute lengths of error vectors, with u = 2^-24. Division has 5 u (2.5 ulp), and sqrt = 1 /
-// inversesqrt has 4 u + 5 u.
+// The bounds below are absolute lengths of error vectors, with u = 2^-24. A division adds an error of 5 u (2.5 ulp),
+// and sqrt = 1 / inversesqrt one of 4 u + 5 u.
 
-// sin_cos_turn has 4.5 ulp of at most u each (lib/kernel/accuracy.cpp). Each product adds one.
+// sin_cos_turn has an error of at most 4.5 u (lib/kernel/accuracy.cpp). Each product adds u.
 inline Real azimuth_bound(Real sine) {
     return sine * (4.5L * std::sqrt(Real{2}) + 1) * half_ulp;
 }
 
-// For rotate_to_axis: q (<= sine) has 2 u and its quotient 6 u, so 8 u sine. `along` (<= sqrt(2)) has u. x and y have
-// these errors, sqrt(2) u for the product and 0.7 u for sums. z has u for the product, 2 u sine for q and u / 2 for the
-// sum. The tangents' error is 2.5 times the axis's lack of unit length, times |v.x| + |v.y| <= sqrt(2) sine.
+// For rotate_to_axis: q (<= sine) has an error of 2 u and its quotient one of 6 u, which gives 8 u sine. `along` (<=
+// sqrt(2)) has an error of u. Both count in x and y, where the product adds sqrt(2) u and the sums add 0.7 u. In z the
+// product adds u, q adds 2 u sine, and the sum adds u / 2. The tangents' error is 2.5 times the deviation of the axis's
+// length from 1, times |v.x| + |v.y| <= sqrt(2) sine.
 inline Real rotation_bound(const glm::vec3 &axis, Real sine) {
     const Real length = length_error(axis);
     return sine * (8.3L * half_ulp + 2.5L * std::sqrt(Real{2}) * length) + length + 3.5L * half_ulp;
 }
 
-// `share` is the relative error of h = 1 - cos. The polar angle has the error share h / sine. sine = sqrt(h (2 - h))
-// has u + 9 u, and 1 - h has u / 2.
+// `share` is the relative error of h = 1 - cos. It turns the polar angle by share h / sine. The error of sine = sqrt(h
+// (2 - h)) is u + 9 u, and 1 - h adds u / 2.
 inline Real direction_about_bound(const glm::vec3 &axis, Real h, Real share) {
     const Real sine = std::sqrt(h * (2 - h));
     const Real polar = sine > 0 ? share * h / sine : 0;

@@ -8,7 +8,7 @@
 
 namespace accuracy {
 
-// Fails if an output word stays unwritten. Negative control: a second run that skips one item.
+// The test fails if an output word stays unwritten. Negative control: a second run skips one item.
 void evaluate_bytes(Probe &probe, std::span<const std::byte> inputs, std::span<std::byte> outputs,
                     std::uint32_t item_count);
 

@@ -18,7 +18,7 @@ public:
 
     std::uint32_t word() { return static_cast<std::uint32_t>(generator_()); }
 
-    // Returns numbers like the sampler's. One in sixteen is among the first or last four values.
+    // Numbers like the sampler's. One in sixteen is among the first or last four values.
     float number() {
         const std::uint32_t bits = word() >> 8;
         const std::uint32_t choice = word();
@@ -42,7 +42,7 @@ public:
     }
 
 private:
-    double normal() { // the central limit theorem is portable
+    double normal() { // portable by the central limit theorem, unlike std::normal_distribution
         double sum = 0.0;
         for (int i = 0; i < 12; ++i)
             sum += word() * 0x1p-32;

@@ -1,4 +1,3 @@
-// hash() and fixed-point conversion are exact.
 #include "integer_items.spv.h"
 #include "shaders/specialization.h"
 #include "tests/accuracy/evaluation.h"
@@ -16,7 +15,7 @@ namespace {
 
 struct Item {
     glm::uvec4 words;
-    glm::uvec4 number; // x: the float to convert
+    glm::uvec4 number;
 };
 
 struct Result {
@@ -50,7 +49,7 @@ void mix(std::array<std::uint32_t, 4> &v) {
 
 glm::uvec4 pcg4d(const glm::uvec4 &input) {
     std::array<std::uint32_t, 4> v{};
-    for (int i = 0; i < 4; ++i) // the linear congruential step of Numerical Recipes
+    for (int i = 0; i < 4; ++i) // linear congruential step of Numerical Recipes
         v[static_cast<std::size_t>(i)] = static_cast<std::uint32_t>(1664525ULL * input[i] + 1013904223ULL);
     mix(v);
     for (std::uint32_t &word : v)
@@ -59,7 +58,7 @@ glm::uvec4 pcg4d(const glm::uvec4 &input) {
     return {v[0], v[1], v[2], v[3]};
 }
 
-// Returns value * 2^60 with the least significant word first. Doubles are exact here.
+// value * 2^60 with the least significant word first. Doubles are exact here.
 glm::uvec4 fixed_point(float value) {
     glm::uvec4 words;
     double rest = std::nearbyint(std::ldexp(double{value}, 60));
@@ -99,7 +98,7 @@ TEST(AccuracyIntegers, AreExact) {
     for (const char *function : {"pcg4d", "fixed_point"})
         std::printf("accuracy: %-28s %6zu inputs, exact\n", function, all.size());
 
-    // Negative control: one wrong bit in each.
+    // Negative control: one wrong bit in each kind of result.
     results[77].hash.x ^= 1U;
     results[79].fixed.y ^= 1U << 16;
     const Differences one = differences(all, results);

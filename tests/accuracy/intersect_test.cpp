@@ -1,4 +1,3 @@
-// Compares distances to spheres and planes with long double.
 #include "distance_items.spv.h"
 #include "shaders/specialization.h"
 #include "tests/accuracy/direction.h"
@@ -14,26 +13,25 @@ namespace accuracy::intersect {
 
 namespace {
 
-// A value of Item::start.
 constexpr float anywhere = 0.0F;
 constexpr float leaving_outside = 1.0F;
 constexpr float leaving_inside = 2.0F;
 
 struct Item {
-    glm::vec3 center; // relative to the ray's start; the plane's normal
-    float radius;     // the plane's height
+    glm::vec3 center; // for spheres relative to the ray's start; for planes the normal
+    float radius;     // for planes the height
     glm::vec3 direction;
     float start;
 };
 
 struct Result {
     float sphere, plane;
-    float blocks_before, blocks_behind; // for shadow rays that end before and behind the hit
+    float blocks_before, blocks_behind; // whether shadow rays are blocked that end before or behind the hit
 };
 
 constexpr float no_hit = 3.0e38F;
 
-// `impact` is in radii.
+// `impact` is the ray's distance from the center, in radii.
 Item passing_ray(Inputs &inputs, double distance, double radius, double impact, float start) {
     const glm::dvec3 direction(inputs.direction());
     const glm::dvec3 across =
@@ -64,16 +62,16 @@ std::vector<Item> items() {
     return items;
 }
 
-// `met` is 0 or 1, or -1 if float32 cannot decide.
+// `met` is 1 for a hit, 0 for none, and -1 if float32 cannot decide.
 struct Exact {
     int met;
     Real distance;
     Real bound;
 };
 
-// Let u = 2^-24, d = |center|, b = center . direction and l = |center - b direction|. b has 3 u d and the lack of unit
-// length. Across the ray, the error is u |b| + u l. Along the ray, the error of b counts squared. l^2 has 3 u, r^2 u,
-// the difference u and sqrt 9 u.
+// Let u = 2^-24, d = |center|, b = center . direction and l = |center - b direction|. The error of b is 3 u d, plus d
+// times the deviation of the direction's length from 1. Across the ray, the center's error is u |b| + u l. The error
+// along the ray counts squared. Errors of 3 u for l^2, u for r^2, u for the difference and 9 u for sqrt follow.
 Exact exact_sphere(const Item &item) {
     const Direction center(item.center);
     const Direction direction = glm::normalize(Direction(item.direction));
@@ -84,7 +82,7 @@ Exact exact_sphere(const Item &item) {
     if (item.start == leaving_outside)
         return {0, no_hit, 1};
     if (item.start == leaving_inside)
-        return {std::abs(b) > b_bound ? 1 : -1, 2 * std::abs(b), 2 * b_bound}; // along the surface
+        return {std::abs(b) > b_bound ? 1 : -1, 2 * std::abs(b), 2 * b_bound}; // start on the surface
     const Real l = glm::length(center - b * direction);
     const Real along = 2 * b_bound;
     const Real l_bound = half_ulp * (std::abs(b) + l);
@@ -94,16 +92,16 @@ Exact exact_sphere(const Item &item) {
     const Real bound = b_bound + 9 * half_ulp * half_chord + std::sqrt(std::max<Real>(square, 0) + square_bound) -
                        std::sqrt(std::max<Real>(square - square_bound, 0)) + 2 * half_ulp * (std::abs(b) + half_chord);
     if (std::abs(d * d - r * r) < 5 * half_ulp * d * d)
-        return {-1, 0, 0}; // on the surface
+        return {-1, 0, 0}; // start on the surface
     const bool outside = d > r;
     const Real distance = outside ? b - half_chord : b + half_chord;
     if (outside && std::abs(square) <= square_bound)
-        return {-1, 0, 0}; // grazing
+        return {-1, 0, 0}; // grazing ray
     const bool met = (square > 0 || !outside) && distance > 0;
     return {std::abs(distance) <= bound ? -1 : static_cast<int>(met), distance, bound};
 }
 
-// For -h / (n . v), the dot product has 2 u |n| and the division 5 u.
+// In -h / (n . v), the dot product has an error of 2 u |n|, and the division adds 5 u.
 Exact exact_plane(const Item &item) {
     const Direction normal(item.center);
     const Real rate = glm::dot(normal, Direction(item.direction));
@@ -111,7 +109,7 @@ Exact exact_plane(const Item &item) {
     if (item.start != anywhere)
         return {0, no_hit, 1};
     if (std::abs(rate) <= 2 * rate_bound)
-        return {-1, 0, 0}; // parallel
+        return {-1, 0, 0}; // parallel to the plane
     const Real distance = -item.radius / rate;
     return {distance > 0, distance, std::abs(distance) * (rate_bound / (std::abs(rate) - rate_bound) + 5 * half_ulp)};
 }
@@ -141,10 +139,11 @@ struct Wrong {
     std::size_t undecided = 0;
     std::size_t found = 0;
     std::size_t of_control = 0;
-    std::size_t shadows = 0; // wrong shadow rays
+    std::size_t shadows = 0;
 };
 
-// Shadow rays end a tenth before or behind the hit. Hits nearer than 1e-4 |center|, 100 float32 errors, do not count.
+// Shadow rays end a tenth before or behind the hit. Hits nearer than 1e-4 |center| are skipped: this is only 100
+// float32 errors.
 bool blocks_rightly(const Exact &exact, const Result &found, const Item &item) {
     if (exact.met == 1 && exact.distance > 1e-4L * glm::length(Direction(item.center)))
         return found.blocks_before == 0.0F && found.blocks_behind == 1.0F;
@@ -175,7 +174,7 @@ Wrong compare_all(const std::vector<Item> &all, std::uint32_t inside, const std:
         compare(plane, on_plane, results[i].plane, std::abs(on_plane.distance), all[i]);
     }
     sphere.finish();
-    if (inside == 1) // leaving on the outside, no ray hits its sphere
+    if (inside == 1) // A ray that leaves the sphere from its surface hits nothing.
         leaving.finish();
     plane.finish();
     return wrong;
@@ -197,10 +196,10 @@ TEST(AccuracyIntersect, OfDistancesWherePathsAreNeverInside) {
     EXPECT_EQ(wrong.found, 0U);
     EXPECT_EQ(wrong.shadows, 0U);
     EXPECT_GT(wrong.of_control, 0U);
-    EXPECT_LT(wrong.undecided, outside.size() / 4); // half of them graze
+    EXPECT_LT(wrong.undecided, outside.size() / 4); // Half of the rays graze.
 }
 
-// Negative control: kernels without `inside` lose spheres from inside.
+// Negative control: kernels without `inside` miss spheres around the ray's start.
 TEST(AccuracyIntersect, WherePathsAreNeverInsideNoneMayBe) {
     std::vector<Item> inside = items();
     std::erase_if(inside, starts_outside);

@@ -1,4 +1,3 @@
-// Compares samples of a lamp with long double.
 #include "lamp_items.spv.h"
 #include "shaders/specialization.h"
 #include "tests/accuracy/direction.h"
@@ -13,7 +12,7 @@ namespace accuracy::lights {
 
 namespace {
 
-constexpr std::uint32_t lamp_count = 512; // lamps that fill a probe's scene
+constexpr std::uint32_t lamp_count = 512;
 
 struct Lamp {
     glm::vec3 center;
@@ -75,7 +74,7 @@ struct View {
     Direction axis;
     Real distance;
     Real squared_sine;
-    Real height;       // 1 - cos(half angle)
+    Real height;
     Real height_share; // relative error of height
     Real highest_cosine;
 
@@ -87,15 +86,16 @@ struct View {
         const Real cosine = std::sqrt(std::max<Real>(1 - squared_sine, 0));
         height = squared_sine / (1 + cosine);
         highest_cosine = glm::dot(glm::normalize(Direction(item.normal)), axis) + Real{lamp.radius} / distance;
-        // sin^2 has u for r^2, 5 u for d^2 and 5 u for the division. 1 - sin^2 has this and u / 2, absolute. The rest
-        // has sqrt 9 u, sum u and division 5 u.
+        // sin^2 has errors of u for r^2, 5 u for d^2 and 5 u for the division. 1 - sin^2 has the same absolute error,
+        // plus u / 2. After it sqrt adds 9 u, the sum u and the division 5 u.
         const Real cosine_bound = root_bound(1 - squared_sine, 11.5L * half_ulp) + 9 * half_ulp * cosine;
         height_share = 16 * half_ulp + (cosine_bound + 2 * half_ulp) / (1 + cosine - cosine_bound);
     }
 };
 
-// The axis has 8.5 u: differences u, inversesqrt of d^2 6.5 u, product u. It counts once for the direction and three
-// times across, as the basis turns. direction_about follows, and u for u.x h.
+// The axis has an error of 8.5 u: u for the differences, 6.5 u for inversesqrt of d^2 and u for the product. This error
+// counts once along the direction, and three times across because the basis turns. direction_about() adds its own
+// error, and u for the rounding of u.x h.
 Real direction_bound(const View &view, const glm::vec3 &axis, Real h) {
     const Real axis_bound = 8.5L * half_ulp;
     const Real sine = std::sqrt(h * (2 - h));
@@ -103,8 +103,8 @@ Real direction_bound(const View &view, const glm::vec3 &axis, Real h) {
            std::sqrt(Real{2}) * sine * (3 + 2.5L) * axis_bound + axis_bound;
 }
 
-// d has 7.5 u: d^2 2.5 u, inversesqrt 4 u, product u. r^2 - d^2 h (2 - h) has 3 u r^2. Its second term has 18 u and the
-// relative error of h.
+// d has an error of 7.5 u: 2.5 u for d^2, 4 u for inversesqrt and u for the product. r^2 - d^2 h (2 - h) has an error
+// of 3 u r^2. Its second term adds 18 u and the relative error of h.
 Real distance_bound(const View &view, const Lamp &lamp, Real h) {
     const Real share = view.height_share + half_ulp;
     const Real squared_radius = Real{lamp.radius} * lamp.radius;
@@ -136,8 +136,9 @@ struct AccuracyLights : testing::Test {
     }
 };
 
-// The stated radiance sin^2 min(1, highest cosine) must not be 0 if the irradiance's bound is not 0. Dot product and
-// sum have 4 u, and the factor 1 / d has 7.5 u. The normal's length adds to these.
+// The stated radiance sin^2 min(1, highest cosine) must not be 0 if the bound of the irradiance is not 0. The dot
+// product and the sum add errors of 4 u, the factor 1 / d adds 7.5 u, and the length of the normal adds its deviation
+// from 1.
 TEST_F(AccuracyLights, OfLampSamples) {
     Comparison height("one_minus_cos", "of itself");
     Comparison density("cone_density", "of itself");
@@ -152,7 +153,7 @@ TEST_F(AccuracyLights, OfLampSamples) {
         const Result &result = results_[i];
         const View view(lamp, item);
         if (view.squared_sine > 1 - 12 * half_ulp)
-            continue; // on the lamp
+            continue; // The vertex is on the lamp.
         const std::vector<float> input = list(item.position, lamp.center, lamp.radius, item.normal, item.numbers);
         height.add(result.height / view.height, 1, view.height_share, input);
 
@@ -167,7 +168,7 @@ TEST_F(AccuracyLights, OfLampSamples) {
             continue;
         }
         lost += result.weight > 0.0F ? 0 : 1;
-        // 1 / (2 pi h) has u / 2 for the constant, u for the product and 5 u for the division.
+        // In 1 / (2 pi h), the constant has an error of u / 2. The product adds u, and the division 5 u.
         density.add(result.density * (2 * pi * view.height), 1, view.height_share * 1.01L + 7 * half_ulp, input);
         const Real h = item.numbers.x * view.height;
         direction.add(result.direction,

@@ -1,4 +1,3 @@
-// The accuracy measurement must detect errors.
 #include "lib/kernel/accuracy.h"
 
 #include "accuracy_skips.spv.h"
@@ -67,7 +66,7 @@ TEST(AccuracyMaths, ASingleErrorIsSeen) {
             values[wrong] = std::nextafter(values[wrong], 1e30F);
         const pt_function_accuracy row = pt::compare(function, arguments, values);
         EXPECT_GT(row.worst_error, function.bound) << function.name;
-        EXPECT_LT(row.worst_error, 2.0 * (function.bound + 2.0)) << function.name; // steps are 2 ulp below 2^e
+        EXPECT_LT(row.worst_error, 2.0 * (function.bound + 2.0)) << function.name; // Below 2^e steps are half as large.
         EXPECT_EQ(row.worst_input, double{arguments[wrong]}) << function.name;
         EXPECT_STREQ(row.name, function.name);
     }
@@ -85,7 +84,7 @@ TEST(AccuracyMaths, AnUnwrittenValueIsSeen) {
 
 // Negative control: a kernel that writes past its values.
 TEST(AccuracyMaths, ValuesBeyondTheEndAreAnError) {
-    const std::vector<float> arguments(4 * pt::gpu::WORKGROUP_SIZE, 2.0F); // 2 makes the kernel write one more
+    const std::vector<float> arguments(4 * pt::gpu::WORKGROUP_SIZE, 2.0F);
     try {
         pt::evaluate(probe_device(), accuracy_skips_spirv(), arguments);
         FAIL() << "nothing was thrown";

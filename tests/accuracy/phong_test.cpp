@@ -1,4 +1,3 @@
-// Compares phong.glsl with long double.
 #include "phong_items.spv.h"
 #include "shaders/specialization.h"
 #include "tests/accuracy/direction.h"
@@ -48,7 +47,7 @@ std::vector<Item> items(bool about_mirror) {
         item.axis = inputs.direction();
         item.normal = inputs.direction();
         if (glm::dot(item.normal, item.axis) > 0.0F)
-            item.normal = -item.normal; // the side from which the path comes
+            item.normal = -item.normal; // turned to the side from which the path comes
         const float exponents[] = {0.0F, 1.0F, 1e9F, static_cast<float>(inputs.log_uniform(1e-3, 1e9))};
         item.glossiness = exponents[std::min<std::size_t>(i % 16, 3)];
         const double width = std::min(1.0, std::sqrt(2.0 / std::max(item.glossiness, 1.0F)));
@@ -81,10 +80,10 @@ Real power(Real cosine, Real n) {
     return cosine > 0 ? std::pow(cosine, n) : 0;
 }
 
-// The lobe is max(0, wo . r)^n, and r has the error mirror_error. Let u = 2^-24 and y = |wo - r|^2 / 2. Differences
-// have 2 u, squares u and sums 2 u. Lengths 1 + a and 1 + b give y (1 + a) (1 + b) + (a - b)^2 / 2. log2(1 - y) has 22
-// u (18 ulp of at most u / 2 at 0.42), the product with n u, and 2^x 3 + 2 |x| ulp of at most 2 u. Below 2^-99 the lobe
-// is 0.
+// The lobe is max(0, wo . r)^n. mirror_error is the error of r. Let u = 2^-24 and y = |wo - r|^2 / 2. Differences add
+// errors of 2 u, squares u and sums 2 u. If the lengths are 1 + a and 1 + b, y becomes y (1 + a) (1 + b) + (a - b)^2
+// / 2. log2(1 - y) has an error of 22 u (18 ulp of at most u / 2 at 0.42). The product with n adds u, and 2^x adds 3 +
+// 2 |x| ulp of at most 2 u. Below 2^-99 the lobe is 0.
 Bounded lobe(const Direction &r, const Direction &wo, Real r_length, Real wo_length, Real mirror_error, Real n) {
     const Direction chord = wo - r;
     const Real y = glm::dot(chord, chord) / 2;
@@ -103,8 +102,8 @@ Bounded lobe_about_axis(const Item &item) {
                 length_error(item.outgoing), 0, item.glossiness);
 }
 
-// For I - 2 (N . I) N, the dot product has 2 u, the second term 4 u + 2 u and the difference u. Four times the normal's
-// lack of unit length is added.
+// In I - 2 (N . I) N, the dot product has an error of 2 u, the second term 4 u + 2 u, and the difference u. Four times
+// the deviation of the normal's length from 1 is added.
 Bounded lobe_about_mirror(const Item &item) {
     const Direction normal = glm::normalize(Direction(item.normal));
     const Direction r = glm::reflect(glm::normalize(Direction(item.axis)), normal);
@@ -128,15 +127,15 @@ Terms density_terms(const Item &item) {
     return {(1 - p) / pi, p * (Real{item.glossiness} + 1) / (2 * pi)};
 }
 
-// The dot product has 2 u. The lengths add to this.
+// The dot product has an error of 2 u. The deviations of both lengths from 1 are added.
 Bounded cosine_of(const Item &item) {
     const Direction normal = glm::normalize(Direction(item.normal));
     return {std::max<Real>(glm::dot(normal, glm::normalize(Direction(item.outgoing))), 0),
             2 * half_ulp + length_error(item.normal) + length_error(item.outgoing)};
 }
 
-// The specular term has 3 u for n + 2, factor and lobe, and 5.5 u for the division by 2 pi. The sum has u and the
-// cosine u.
+// The specular term has an error of u each for n + 2, for the factor and for the lobe, and of 5.5 u for the division by
+// 2 pi. Adding the diffuse term and multiplying by the cosine add u each.
 constexpr Real rounding = 11 * half_ulp;
 
 Bounded value_of(const Item &item) {
@@ -166,8 +165,10 @@ TEST(AccuracyPhong, OfLobes) {
         const Item &item = all[i];
         const Bounded lobe = lobe_about_axis(item);
         power.add(results[i].power, lobe.exact, lobe.bound, list(item.axis, item.glossiness, item.outgoing));
-        // In 1 - 2^(log2(1 - u) / (n + 1)), the logarithm has 22 u, n + 1 u and the division 5 u. x e^x / (1 - e^x) <=
-        // 1 damps them. 2^x has 2.5 ulp <= 5 u.
+        // In 1 - 2^(log2(1 - u) / (n + 1)), the logarithm has an error of 22 u, n + 1 one of u, and the division one of
+        // 5 u. With x = ln(1
+        // - u) / (n + 1), these relative errors of x are multiplied by |x| e^x / (1 - e^x) <= 1. 2^x adds 2.5 ulp <= 5
+        // u.
         const Real h = -std::expm1(std::log1p(-Real{item.numbers.x}) / (Real{item.glossiness} + 1));
         direction.add(glm::vec3(results[i].direction),
                       turned_to(item.axis, direction_at(1 - h, std::sqrt(h * (2 - h)), item.numbers.y)),

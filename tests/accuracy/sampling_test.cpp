@@ -1,4 +1,3 @@
-// Compares sampling.glsl with long double.
 #include "sampling_items.spv.h"
 #include "tests/accuracy/direction.h"
 #include "tests/accuracy/evaluation.h"
@@ -23,8 +22,8 @@ struct Result {
 std::vector<Item> items() {
     Inputs inputs(1);
     std::vector<Item> items;
-    // Caps have heights 1 - cos(angle) from 5e-15, an angle of 1e-7, to 2, the whole sphere. Squares or ratios of some
-    // densities overflow. Densities are within 2^+-126, where Vulkan bounds the error of division.
+    // Caps have heights 1 - cos(angle) from 5e-15, an angle of 1e-7, to 2, the whole sphere. The densities are so far
+    // apart that some squares or ratios overflow. All are within 2^+-126, where Vulkan bounds the error of division.
     for (std::size_t i = 0; i < random_count; ++i)
         items.push_back({inputs.direction(), static_cast<float>(inputs.log_uniform(5e-15, 2.0)),
                          glm::vec2(inputs.number(), inputs.number()),
@@ -39,18 +38,19 @@ std::vector<Item> items() {
     return items;
 }
 
-// u and 1 - u are exact, and their roots have 9 u each. Both rotations add to this.
+// u and 1 - u are exact. Their roots have errors of 9 u each. Both rotations add their own.
 Real cosine_hemisphere_bound(const Item &item) {
     const Real sine = std::sqrt(Real{item.numbers.x});
     return rotation_bound(item.axis, sine) + azimuth_bound(sine) + 9 * half_ulp;
 }
 
-// 1 - 2 u is exact. The sine 2 sqrt(u (1 - u)) has u / 2 + 9 u.
+// 1 - 2 u is exact. The sine 2 sqrt(u (1 - u)) has an error of u / 2 + 9 u.
 Real uniform_bound(Real sine) {
     return azimuth_bound(sine) + 9.5L * half_ulp * sine + half_ulp / 2;
 }
 
-// Returns the nearer direction if the dot product (2 u and the lengths) cannot tell the side.
+// If the dot product cannot tell the side within its error (2 u and the lengths' deviations from 1), the nearer
+// direction counts.
 Direction mirrored_up(const Direction &direction, const Item &item, const glm::vec4 &found) {
     const Real cosine = glm::dot(direction, Direction(item.axis));
     const bool undecided = std::abs(cosine) < 4 * half_ulp + uniform_bound(1);
@@ -58,7 +58,6 @@ Direction mirrored_up(const Direction &direction, const Item &item, const glm::v
     return side < 0 ? -direction : direction;
 }
 
-// Uses the wedges between the square's diagonals. The kernel does not.
 Direction concentric(const glm::vec2 &numbers) {
     const Real x = 2 * Real{numbers.x} - 1;
     const Real y = 2 * Real{numbers.y} - 1;
@@ -71,7 +70,8 @@ Direction concentric(const glm::vec2 &numbers) {
     return side * radius * Direction(std::cos(angle), std::sin(angle), 0);
 }
 
-// 2 u - 1 is exact for 24 bits. The ratio has 5 u, the angle 5 pi / 4 u and the product u / 2 per component.
+// 2 u - 1 is exact for 24 bits. The ratio has an error of 5 u, the angle of 5 pi / 4 u, and the product adds u / 2 per
+// component.
 constexpr Real concentric_share = 5 * pi / 4 * half_ulp;
 
 class AccuracySampling : public testing::Test {
@@ -104,7 +104,8 @@ TEST_F(AccuracySampling, OfDirectionsAndWeights) {
         const Direction point = concentric(item.numbers);
         disc.add(glm::vec3(result.weight.z, result.weight.w, 0.0F), point,
                  glm::length(point) * (concentric_share + azimuth_bound(1)), list(item));
-        // In w = 1 / (1 + q^2), q has 5 u, q^2 11 u, the sum u and the division 2.5 ulp. Overflowing squares give 0.
+        // In w = 1 / (1 + q^2), the error of q is 5 u, of q^2 11 u, of the sum u and of the division 2.5 ulp. If a
+        // square overflows, the weight is 0.
         const Real a = item.density;
         const Real b = item.other_density;
         add_in_ulp(weight, result.weight.x, a * a / (a * a + b * b), 14.5L, 0x1p-100L, list(item));

@@ -1,4 +1,4 @@
-// Tests vertex_at with wrong distances along the ray.
+// vertex_at() returns the right vertex for inexact distances along the ray.
 #include "shaders/specialization.h"
 #include "tests/accuracy/direction.h"
 #include "tests/accuracy/evaluation.h"
@@ -61,9 +61,10 @@ std::vector<Item> items(const std::vector<glm::vec4> &surfaces) {
     return items;
 }
 
-// Let u = 2^-24. The sphere's normalize times radius has 15.5 u, the product u and the sum u |p|. The plane's normal .
-// p + offset has 2 u |p| + u, the correction 3 u of itself, and the difference u |p|. A normal off unit length by l
-// leaves 2 l of the height.
+// Let u = 2^-24. For spheres, radius times normalize() has an error of 15.5 u, the product adds u and the sum u |p|.
+// For planes, normal . p
+// + offset has an error of 2 u |p| + u, the correction adds 3 u of itself, and the difference adds u |p|. If the
+// normal's length is 1 + l, the error of the height is 2 l times the height.
 Real sphere_bound(const glm::vec4 &sphere, const Direction &point) {
     return half_ulp * (16.5L * sphere.w + glm::length(point));
 }
@@ -107,7 +108,8 @@ TEST(AccuracyVertex, OfPoints) {
         // A dot product has an error of 3 u.
         EXPECT_LE(glm::dot(normal, Direction(item.direction)), 3 * half_ulp) << "not on the side of the ray's start";
         inside += results[i].inside == 1.0F ? 1 : 0;
-        // 2 (n . d) n has 4 u + 2 u, and the difference u. A ray along the surface is its own mirror image.
+        // 2 (n . d) n has an error of 4 u + 2 u, and the difference adds u. A ray along the surface is its own mirror
+        // image.
         mirror.add(glm::vec3(results[i].mirror), glm::reflect(Direction(item.direction), normal), 7 * half_ulp, input);
     }
     EXPECT_TRUE(inside > 0 && inside < all.size()) << "only one side was tested";

@@ -1,4 +1,3 @@
-// Tests pixels with exactly known radiance (tests/data/analytic/README.md).
 #include "tests/analytic/analytic_fixture.h"
 #include "tests/analytic/crop.h"
 #include "tests/analytic/scenes.h"
@@ -26,7 +25,7 @@ std::uint32_t samples_for(const Crop &crop, const cli::SceneFile &scene) {
 }
 
 struct Measurement {
-    std::uint32_t sample_count; // of all batches
+    std::uint32_t sample_count; // of all batches together
     Estimate radiance;
 };
 
@@ -52,7 +51,7 @@ bool resolves(const Measurement &measured, const Exact &exact) {
 
 class PixelFixture : public AnalyticFixture {
 protected:
-    // Some rows of an image must have the same bits as in the whole image.
+    // The rows must have the same bits as in the whole image.
     Batches render(const cli::SceneFile &scene, const Crop &crop, std::uint32_t samples, std::uint32_t first_row = 0,
                    std::uint32_t row_count = 0) {
         set_up(scene.scene(), cropped(scene.camera, scene.render.height, crop.height));
@@ -113,7 +112,7 @@ TEST_P(WholeImage, PixelsAreInTheirPlaces) {
     const std::uint32_t paths = (1U << 22) / samples_for_one();
     const std::uint32_t samples = paths / (whole.width * whole.height * batch_count) + 1;
     const Batches batches = render(scene, whole, samples);
-    int misplaced = 0; // negative control: pixels mirrored in both axes
+    int misplaced = 0; // Negative control: pixels mirrored in both axes.
     for (const Expectation &expectation : read_expectations())
         for (const Pixel &pixel : expectation.pixels) {
             if (expectation.scene != GetParam())

@@ -14,7 +14,7 @@ namespace analytic {
 struct Crop {
     std::uint32_t width;
     std::uint32_t height;
-    std::uint32_t x; // of the pixel
+    std::uint32_t x;
     std::uint32_t y;
 };
 
@@ -31,7 +31,6 @@ inline Crop crop_around(std::uint32_t width, std::uint32_t height, std::uint32_t
     return {crop_width, crop_height, x - (width - crop_width) / 2, y - (height - crop_height) / 2};
 }
 
-// `height` is the height of the whole image.
 inline pt_camera cropped(pt_camera camera, std::uint32_t height, std::uint32_t crop_height) {
     camera.vertical_fov = 2.0 * std::atan(std::tan(0.5 * camera.vertical_fov) * crop_height / height);
     return camera;

@@ -21,7 +21,7 @@ protected:
     }
 };
 
-// Returns the relative error in units of 2^-24.
+// Relative error in units of 2^-24.
 double largest_error(const Image &image, double exact) {
     double largest = 0.0;
     for (const float value : image.radiance)
@@ -31,8 +31,8 @@ double largest_error(const Image &image, double exact) {
 
 TEST_F(ExactLight, FromASphereItselfItsFarSideIsSeen) {
     for (const float emission : {0.0F, 0.5F}) {
-        // The lamp behind the sphere would show a leak. Both emissions are tested, since lamps and black spheres are
-        // stored differently.
+        // The lamp behind the sphere would show a leak. Lamps and black spheres are stored differently, so both
+        // emissions are tested.
         const pt_material materials[] = {{{0, 0, 0}, {0, 0, 0}, {emission, emission, emission}, 0, 0},
                                          {{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0, 0}};
         const pt_sphere spheres[] = {{{0, 0, -1}, 1, {0, 0, 0}, 0, 0}, {{0, 0, -1}, 50, {0, 0, 0}, 1, 0}};
@@ -54,7 +54,7 @@ TEST_F(ExactLight, InsideALampIsItsEmission) {
 }
 
 // Every path ends on a lamp of emission 1 after one reflection with the weight (albedo / pi * cos) / (cos / pi). The
-// tolerance is five operations with an error of 2^-24 each.
+// tolerance allows five operations with an error of 2^-24 each.
 TEST_F(ExactLight, FurnaceIsWhite) {
     const cli::SceneFile scene = read_scene("09-furnace");
     for (const std::uint32_t estimator : {PT_ESTIMATOR_COSINE, PT_ESTIMATOR_BSDF, PT_ESTIMATOR_MIS})

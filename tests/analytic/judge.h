@@ -7,7 +7,7 @@
 
 namespace analytic {
 
-// The probability of a false alarm over all pixels and both judges.
+// The probability of a false alarm over all pixels, for agrees() and batch_bound() together.
 inline constexpr double false_alarms = 1e-6;
 inline constexpr double tabulated_pixels = 147;
 inline constexpr double false_alarm_per_judgement = false_alarms / (2.0 * tabulated_pixels);
@@ -37,12 +37,13 @@ inline double error_bound(double relative_std, std::uint32_t sample_count) {
     return rounding + noise_bound(relative_std, sample_count);
 }
 
-// The first judge uses the known noise, so light that no sample has found cannot mislead it. Black must be exact.
+// The bound uses the known noise, so light that no sample has found cannot mislead it. Black pixels must be exactly
+// black.
 inline bool agrees(double measured, const Exact &exact, std::uint32_t sample_count) {
     return std::abs(measured - exact.radiance) <= error_bound(exact.relative_std, sample_count) * exact.radiance;
 }
 
-// The second judge uses the measured noise of batches, which is smaller with stratified samples.
+// The bound uses the noise measured over batches, which is smaller with stratified samples.
 inline double batch_bound(const Estimate &measured, const Exact &exact, std::uint32_t batch_count) {
     return rounding * exact.radiance + student_bound(false_alarm_per_judgement, batch_count) * measured.standard_error;
 }

@@ -1,4 +1,3 @@
-// The exact fraction of each pixel that a sphere covers.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +20,7 @@ public:
         return std::numbers::pi * tangent_ * tangent_ / std::pow(minor, 1.5);
     }
 
-    // Both ends are equal if the line misses the ellipse.
+    // Both ends are equal if the line does not hit the ellipse.
     std::pair<double, double> chord(double y) const {
         const double p = y_ * y - z_; // (c_x x + p)^2 - tangent (x^2 + y^2 + 1) = 0
         const double a = x_ * x_ - tangent_;
@@ -34,7 +33,7 @@ public:
         return std::minmax((-half_b - root) / a, (-half_b + root) / a);
     }
 
-    // Integrates by the midpoint rule over lines, with an error of 3e-5.
+    // The midpoint rule over lines has an error of 3e-5.
     double share(double left, double right, double bottom, double top) const {
         constexpr int lines = 1024;
         double sum = 0.0;

@@ -77,7 +77,7 @@ protected:
 // The bound is five standard errors, with one false alarm in two million comparisons.
 const double spot_bound = student_bound(std::erfc(5.0 / std::sqrt(2.0)), spot_batch_count);
 
-// PT_TEST_MANY adds longer paths. The noise is 0.3%, so 3% is detected.
+// PT_TEST_MANY adds longer paths. The noise is 0.3%, so errors of 3% are detected.
 TEST_P(SpotAgreement, WithDirectionsByChance) {
     for (const std::uint32_t length : {3U, 5U}) {
         if (length > 3 && !std::getenv("PT_TEST_MANY"))

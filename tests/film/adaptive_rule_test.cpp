@@ -1,4 +1,4 @@
-// The adaptive rule and plan without a device. A tile of variance v with n samples has the squared error v / n.
+// Tests the adaptive rule and plan without a device. A tile of variance v with n samples has the squared error v / n.
 #include "lib/film/adaptive_rule.h"
 #include "lib/film/error_estimate.h"
 #include "lib/film/tile_samples.h"
@@ -24,7 +24,6 @@ using pt::TileStep;
 constexpr TileGrid model_grid{320, 160}; // 800 whole tiles
 constexpr double pixels_of_tile = 64.0;
 
-// The variances spread over decades, as in pictures.
 std::vector<double> spread_variances(std::uint32_t seed) {
     std::mt19937 generator(seed);
     std::normal_distribution<double> exponent(0.0, 1.6);
@@ -96,9 +95,9 @@ TEST(AdaptiveRule, LevelsDouble) {
     EXPECT_TRUE(pt::is_level(std::uint64_t{1} << 31));
 }
 
-// With samples in proportion to sqrt(v), the total is (mean of sqrt(v))^2 / mean(v) of an even film's. Counts are
-// powers of two, which costs 4%. The last round misses its end by at most 2^(1/2). Negative control: equal errors in
-// all tiles gain nothing.
+// With samples in proportion to sqrt(v), the total falls to (mean of sqrt(v))^2 / mean(v) of an even film's. Counts are
+// powers of two, which costs 4%. The last round may end at 2^(1/2) times the needed count. Negative control: equal
+// errors in all tiles gain nothing.
 TEST(AdaptiveRule, GoesWhereSamplesGainMost) {
     for (const std::uint32_t seed : {1U, 2U, 3U}) {
         const std::vector<double> variances = spread_variances(seed);
@@ -136,7 +135,7 @@ TEST(AdaptiveRule, DoesNotOvershootTheTarget) {
     }
 }
 
-// All samples of a black tile may have missed its light.
+// Samples of a black tile may have missed all of its light.
 TEST(AdaptiveRule, BlackTilesGetHalfOfTheMean) {
     std::vector<double> variances(model_grid.count(), 0.0);
     std::fill_n(variances.begin(), variances.size() / 2, 1.0);
@@ -259,7 +258,7 @@ private:
     std::vector<double> variances_;
 };
 
-// Stops after `stop_after` tiles. The last one gets at most half of its step.
+// Stops after `stop_after` tiles. The last of these gets at most half of its samples.
 void sample_plan(ModelFilm &film, const ModelErrors &errors, const pt::MostSamples &counts, std::uint64_t stop_after) {
     const AdaptivePlan plan(goal_error, counts,
                             {[&] { return errors.error_of(film); }, [&] { return errors.squares_of(film); },
@@ -294,7 +293,6 @@ ModelFilm sampled_at_once(const ModelErrors &errors, std::uint64_t most) {
     return film;
 }
 
-// Some calls add no samples to complete pixels.
 ModelFilm sampled_in_calls(const ModelErrors &errors, std::uint64_t most, std::mt19937 &generator) {
     ModelFilm film;
     for (int call = 0; call < 12; ++call) {
@@ -307,7 +305,7 @@ ModelFilm sampled_in_calls(const ModelErrors &errors, std::uint64_t most, std::m
     return film;
 }
 
-// Calls end at a level, between levels, and beyond the target.
+// Calls end at a power of two, between powers, and beyond the target.
 TEST(AdaptivePlan, CallsThatEndAnywhereComeToTheSameSamples) {
     std::mt19937 generator(1);
     int with_target_error = 0;

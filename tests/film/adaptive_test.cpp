@@ -1,4 +1,3 @@
-// In adaptive films, each tile has the bits of an even film with its sample count.
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
@@ -38,7 +37,6 @@ protected:
         ContextFixture::TearDown();
     }
 
-    // A context whose tiles may differ from 16 samples on.
     pt_context *context() { return alone_.get(); }
 
     Context context_on(uint32_t device_count, uint32_t submit_milliseconds = 50, bool like_gpus = false) {
@@ -84,7 +82,7 @@ TEST_F(AdaptiveTest, EachTileHasTheBitsOfAnEvenFilm) {
         const Values counts = values(uneven.get(), PT_QUANTITY_SAMPLE_COUNT);
         const Values radiance = values(uneven.get());
         const Values error = values(uneven.get(), PT_QUANTITY_STANDARD_ERROR);
-        for (uint32_t y = 0; y < uneven_height; ++y) // all pixels of a tile have one count
+        for (uint32_t y = 0; y < uneven_height; ++y) // All pixels of a tile have one count.
             for (uint32_t x = 0; x < uneven_width; ++x)
                 EXPECT_EQ(counts[3 * (y * uneven_width + x)], counts[3 * (y / 8 * 8 * uneven_width + x / 8 * 8)]);
         std::map<uint32_t, std::size_t> pixels;
@@ -124,7 +122,7 @@ TEST_F(AdaptiveTest, TakesFewerSamples) {
     EXPECT_LT(adaptive, 0.9 * uniform.mean_sample_count);
 }
 
-// PT_TEST_SPLITS=200 splits more often.
+// PT_TEST_SPLITS sets the number of random splits.
 TEST_F(AdaptiveTest, SplitsAndResumesChangeNoBit) {
     const char *const wanted = std::getenv("PT_TEST_SPLITS");
     const int splits = wanted ? std::atoi(wanted) : 3;
@@ -186,7 +184,6 @@ TEST_F(AdaptiveTest, UnevenFilmsTakeEvenSamplesAndAddUp) {
     EXPECT_EQ(stats_of(context()).sample_count, least);
 }
 
-// A later call takes the remaining samples.
 TEST_F(AdaptiveTest, TheMostSamplesAreThoseOfAPixel) {
     const Bytes expected = film_on_target(context());
     begin(context());

@@ -1,4 +1,3 @@
-// Comparisons of invented images whose means and noise are known.
 #include <pt/compare.h>
 
 #include <gtest/gtest.h>
@@ -22,7 +21,6 @@ constexpr std::size_t pixel_count = std::size_t{width} * height;
 using Pixels = std::vector<float>;
 using Noise = std::function<double(std::mt19937 &)>;
 
-// Returns grey pixels with independent noise.
 Pixels drawn(std::mt19937 &random, const Noise &noise) {
     Pixels pixels;
     for (std::size_t i = 0; i < pixel_count; ++i)
@@ -54,17 +52,16 @@ pt_comparison compared(const pt_compare_info &info) {
     return comparison;
 }
 
-// Normal noise with the mean 1.
 Noise normal(double deviation) {
     return [=](std::mt19937 &random) { return std::normal_distribution(1.0, deviation)(random); };
 }
 
-// Rare events with the mean 1. A pixel expects `share` events.
+// Rare events with the mean 1. A pixel expects `share` of an event.
 Noise rare_events(double share) {
     return [=](std::mt19937 &random) { return std::poisson_distribution<int>(share)(random) / share; };
 }
 
-// Rare events bring the share `of_light` of the light.
+// Rare events bring the fraction `of_light` of the light.
 Noise partly_rare(double share, double of_light) {
     return [=](std::mt19937 &random) {
         return (1.0 - of_light) * normal(0.001)(random) + of_light * rare_events(share)(random);
@@ -96,7 +93,7 @@ TEST(Comparison, EqualBitsAndLightWithoutNoise) {
     EXPECT_STREQ(compared(info_of(brighter, ones)).summary, "different light: +5% +- 0.25% of the picture in R");
 }
 
-// Computes the bound of shaders/README.md, section 11. There are three sizes of regions.
+// Computes the bound of shaders/README.md, section 11, for three sizes of regions.
 TEST(Comparison, TheProbabilityIsThatOfSigns) {
     std::mt19937 random(1);
     const Pixels ones(3 * pixel_count, 1.0F);
@@ -114,7 +111,7 @@ TEST(Comparison, TheProbabilityIsThatOfSigns) {
     const double up = static_cast<double>(1.1F) - 1.0;
     const double down = static_cast<double>(0.9F) - 1.0;
     const double deviation = std::sqrt(plus * up * up + minus * down * down);
-    const double event = std::max(up / 1.0, -down / (1.0 + down)); // relative to the light 1
+    const double event = std::max(up / 1.0, -down / (1.0 + down)); // relative to the light, which is 1
     const double excess = plus * up + minus * down - 1e-4 * pixel_count;
     const double by_noise = std::min(excess, deviation * deviation / event) / deviation;
     const double by_events = excess / event - by_noise * deviation / event;
@@ -129,7 +126,7 @@ TEST(Comparison, TheProbabilityIsThatOfSigns) {
 // Compares Bentkus and Dzindzalieta's constant with exact tails of sums of n signs.
 TEST(Comparison, TheConstantOfSignsHolds) {
     for (const int n : {2, 3, 10, 31}) {
-        double term = std::pow(0.5, n); // all n signs are +
+        double term = std::pow(0.5, n); // probability that all n signs are +
         double tail = 0.0;
         for (int minus = 0; 2 * minus <= n; ++minus) {
             tail += term;
@@ -140,7 +137,7 @@ TEST(Comparison, TheConstantOfSignsHolds) {
     }
 }
 
-// The first image has a Poisson number of equal events, each in its own pixel. The other image has no noise.
+// The first image has a Poisson number of equal events, each in its own pixel, and the other image has no noise.
 TEST(Comparison, TheProbabilityIsAtLeastThatOfEvents) {
     constexpr double expected = 300.0;
     const Pixels ones(3 * pixel_count, 1.0F);
@@ -220,7 +217,7 @@ TEST(Comparison, LackOfLightThatMayBeMissedSaysNothing) {
     EXPECT_EQ(compared(info).light, PT_LIGHT_DIFFERENT);
 }
 
-// The image that lacks light may lack samples as bright as the visible lamp.
+// The darker image may have missed samples as bright as the visible lamp.
 TEST(Comparison, ASampleOfTheBrightestPixelMayBeMissing) {
     Pixels second(3 * pixel_count, 1.0F);
     Pixels first = times(second, 0.97);
@@ -264,13 +261,12 @@ TEST(Comparison, FewPixelsWithLightSayLittle) {
     }
 }
 
-// Counting compares nothing.
 TEST(Comparison, RegionsAreCounted) {
     const Pixels ones(3 * pixel_count, 1.0F);
     const pt_compare_info info = info_of(ones, ones);
     std::uint32_t counted = 0;
     ASSERT_EQ(pt_compare(&info, nullptr, nullptr, &counted), PT_OK);
-    EXPECT_EQ(counted, 6U + 2U + 1U); // of 16, 32 and 64 pixels
+    EXPECT_EQ(counted, 6U + 2U + 1U); // regions of 16, 32 and 64 pixels
     std::uint32_t compared_count = 0;
     pt_comparison comparison{};
     comparison.struct_size = sizeof comparison;

@@ -1,4 +1,4 @@
-// If every surface emits 1, coverage has the bits of the mean radiance, because sums are exact.
+// If every surface emits 1, coverage and mean radiance have the same bits, because sums are exact.
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"

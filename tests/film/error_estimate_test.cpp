@@ -1,4 +1,3 @@
-// The error estimate on small images.
 #include "lib/film/error_estimate.h"
 
 #include "tests/support/image_tiles.h"
@@ -13,7 +12,7 @@
 
 namespace {
 
-// Unseen light counts as nothing with so large a count.
+// With this count, unseen light is negligible.
 constexpr std::uint64_t sample_count = std::uint64_t{1} << 40;
 
 pt::ImageValues pixels_of(const std::vector<float> &radiance, const std::vector<float> &standard_error) {
@@ -31,7 +30,7 @@ pt::ErrorEstimate estimate(std::uint32_t width, const std::vector<float> &radian
     return estimator.result();
 }
 
-// Adds the margin for squares concentrated in this many equal pixels (error_estimate.cpp).
+// The margin for squares concentrated in `pixel_count` equal pixels (error_estimate.cpp).
 double raised(double root, double pixel_count) {
     return root * (1.0 + 0.6 / std::sqrt(pixel_count) + 1.2 / pixel_count);
 }
@@ -65,14 +64,13 @@ TEST(ErrorEstimate, IsUncertainWhereLampsMayBeMissed) {
     EXPECT_EQ(missed.rmse.estimate, met.rmse.estimate);
     EXPECT_DOUBLE_EQ(missed.rmse.high, 2.0 * met.rmse.high);
     EXPECT_DOUBLE_EQ(missed.relative_rmse.low, 0.5 * met.relative_rmse.low);
-    // A black image contains no information.
     const std::vector<float> black(errors.size(), 0.0F);
     EXPECT_EQ(estimate(32, black, black).relative_rmse.high, 0.0);
     EXPECT_TRUE(std::isinf(estimate(32, black, black, PT_SAMPLER_RANDOM, true).relative_rmse.high));
 }
 
-// If most bright pixels were hit once, each counts relative to the black around it. Otherwise it counts relative to the
-// expected hits, 2 ln 3.
+// If most bright pixels were hit once, their errors count relative to the black around them. Otherwise they count
+// relative to the expected number of hits, 2 ln 3.
 TEST(ErrorEstimate, TellsLampsFromRareSamples) {
     constexpr std::size_t side = 64;
     const auto relative_square = [](std::size_t met_once, std::size_t met_again) {
@@ -80,14 +78,14 @@ TEST(ErrorEstimate, TellsLampsFromRareSamples) {
         std::vector<float> errors(radiance.size(), 0.0F);
         for (std::size_t i = 0; i < met_once + met_again; ++i)
             for (std::size_t channel = 0; channel < 3; ++channel) {
-                const std::size_t pixel = i % 8 * 8 + 4 + (i / 8 * 8 + 4) * side; // one in each tile
+                const std::size_t pixel = i % 8 * 8 + 4 + (i / 8 * 8 + 4) * side; // one pixel in each tile
                 radiance[3 * pixel + channel] = 100.0F;
                 errors[3 * pixel + channel] = i < met_once ? 100.0F : 0.0F;
             }
         const pt::ErrorEstimate found = estimate(side, radiance, errors);
         const double count = static_cast<double>(met_once);
         const double square = found.relative_rmse.estimate / raised(1.0, count);
-        return square * square * side * side / count; // for each pixel with one hit
+        return square * square * side * side / count;
     };
     const auto expected = [](double met_once, double met_again) {
         const double meetings = 2.0 * std::log(1.0 + 2.0 * (met_again + 0.5) / (met_once + 1.0));
@@ -98,8 +96,8 @@ TEST(ErrorEstimate, TellsLampsFromRareSamples) {
     EXPECT_GT(expected(40, 0), 300.0);
 }
 
-// 40 pixels have one hit each, and 0 or 20 others have several. 20 stand for at least 20 - 1.96 sqrt(20). 0 allow light
-// of any rarity, so each pixel may count relative to the black around it.
+// 40 pixels have one hit each, and 0 or 20 others have several. The 20 pixels allow an expected number of 20 - 1.96
+// sqrt(20). Without any, the light may be of any rarity, so each pixel may count relative to the black around it.
 TEST(ErrorEstimate, IsBoundedByTheRarestLightThatMeetingsAllow) {
     const double least = 20.0 - 1.96 * std::sqrt(20.0);
     const auto square = [](double met_again) {
@@ -123,7 +121,7 @@ TEST(ErrorEstimate, IsBoundedByTheRarestLightThatMeetingsAllow) {
     }
 }
 
-// If lamps are found by chance, pixels with one hit count relative to their surroundings, which are 0 here.
+// If lamps are found by chance, pixels with one hit count relative to their surroundings, which are 0.
 TEST(ErrorEstimate, OfLampsFoundByChanceAsksNotWhatWasMetAgain) {
     std::vector<float> radiance(3 * 32 * 32, 0.0F);
     std::vector<float> errors(radiance.size(), 0.0F);
@@ -154,10 +152,10 @@ TEST(ErrorEstimate, CountsLightThatMayBeUnseen) {
     const pt::ErrorEstimate found = estimator.result();
     const double seen = 1.0 / (159.0 * 159.0 + 0.01);
     constexpr double b = 10.0 / 0.1;
-    constexpr double unseen = 0.055 * b * b / (4.0 * (3.0 + 0.81 * b + 0.9 * 1000.0)); // for each of two columns
+    constexpr double unseen = 0.055 * b * b / (4.0 * (3.0 + 0.81 * b + 0.9 * 1000.0)); // light of two columns
     EXPECT_DOUBLE_EQ(found.relative_rmse.estimate, raised(std::sqrt((seen + 2.0 * unseen) / 32.0), 32.0));
     EXPECT_EQ(found.uncertain, unsigned{PT_UNCERTAIN_UNSEEN});
-    EXPECT_EQ(estimate(32, radiance, errors).uncertain, 0U); // has many more samples
+    EXPECT_EQ(estimate(32, radiance, errors).uncertain, 0U); // has more samples
 }
 
 TEST(ErrorEstimate, OfPlainHaltonIsStatedAFifthLarger) {
@@ -194,9 +192,9 @@ TEST(ErrorEstimate, IsHiddenByMoreThanOneLeftOutSampleInAMillion) {
     EXPECT_TRUE(pt::hides_error((1 << 10) + 1, std::uint64_t{1} << 30));
 }
 
-// Two tiles have the squares 64 * 3 * 1 and 64 * 3 * 4. Their mean is 2.5 per value, and their deviations are 64 * 3 *
-// 1.5. The root of the squared deviations' sum is 1.5 sqrt(2) / 5 of the total. The squares are as concentrated as (64
-// * 5)^2 / (64 * 17) equal pixels.
+// Two tiles have the sums of squares 64 * 3 * 1 and 64 * 3 * 4. The mean is 2.5 per value, so each sum deviates by 64 *
+// 3 * 1.5. The root of the summed squares of these deviations is 1.5 sqrt(2) / 5 of the total. The squares are as
+// concentrated as (64 * 5)^2 / (64 * 17) equal pixels.
 TEST(ErrorEstimate, BoundsComeFromTheSpreadOverTiles) {
     std::vector<float> errors;
     for (int pixel = 0; pixel < 8 * 16; ++pixel)
@@ -217,7 +215,7 @@ TEST(ErrorEstimate, BoundsComeFromTheSpreadOverTiles) {
     EXPECT_EQ(without_spread.estimate, without_spread.high) << "within the bounds";
 }
 
-// In 8 of 64 tiles one pixel has an error, so the logarithm of the bound is 1.96 / sqrt(3 * 8).
+// In 8 of 64 tiles one pixel has an error, so the bound's logarithm is 1.96 / sqrt(3 * 8).
 TEST(ErrorEstimate, BoundsOfFewPixelsAreWide) {
     std::vector<float> errors(3 * 64 * 64, 0.0F);
     for (std::size_t row = 0; row < 64; row += 8)

@@ -1,4 +1,3 @@
-// Checks floats against exact quotients of sums.
 #pragma once
 
 #include "lib/film/quotient.h"
@@ -22,7 +21,6 @@ inline int compare_shifted(pt::WideSum a, int shift, pt::WideSum b) {
     return shifted < b ? -1 : shifted > b ? 1 : 0;
 }
 
-// The midpoint between a float >= 0 and the next one, mantissa * 2^exponent.
 struct Middle {
     pt::WideSum mantissa;
     int exponent;
@@ -35,10 +33,10 @@ inline Middle middle_above(std::uint32_t float_bits) {
     return {2 * pt::WideSum{mantissa} + 1, static_cast<int>(std::max(exponent, 1U)) - 127 - 23 - 1};
 }
 
-// Whether the float is nearest to sum * 2^exponent / count, ties to even.
+// Whether the float is nearest to sum * 2^exponent / count. Ties go to even.
 inline bool is_nearest(std::uint32_t bits, pt::WideSum sum, std::uint32_t count, int exponent) {
     const bool even = bits % 2 == 0;
-    if (bits < 0x7f800000) { // nothing above infinity
+    if (bits < 0x7f800000) { // Infinity has no upper midpoint.
         const Middle above = middle_above(bits);
         const int order = compare_shifted(above.mantissa * count, above.exponent - exponent, sum);
         if (order < 0 || (order == 0 && !even))
@@ -51,7 +49,7 @@ inline bool is_nearest(std::uint32_t bits, pt::WideSum sum, std::uint32_t count,
     return order < 0 || (order == 0 && even);
 }
 
-// |A b - B a| 2^exponent / ((a + b) sqrt(a b)); exact numerator.
+// |A b - B a| 2^exponent / ((a + b) sqrt(a b)), with an exact numerator.
 inline long double exact_standard_error(pt::WideSum sum_a, std::uint32_t a, pt::WideSum sum_b, std::uint32_t b,
                                         int exponent) {
     const auto multiplied = [](pt::WideSum sum, std::uint32_t factor) {
@@ -71,7 +69,7 @@ inline long double exact_standard_error(pt::WideSum sum_a, std::uint32_t a, pt::
     return std::ldexp(numerator / sum / std::sqrt(static_cast<long double>(a) * b), exponent);
 }
 
-// Within .52 of the last place, even at both ends of float's range.
+// Whether `found` is within .52 ulp of `exact`, even at both ends of float's range.
 inline bool is_close(float found, long double exact) {
     if (std::isinf(found))
         return exact >= 0x1.ffffffp127L;

@@ -1,4 +1,3 @@
-// Films of earlier versions stay readable. Other files are rejected.
 #include "lib/film/film_bytes.h"
 
 #include "lib/base/digest.h"
@@ -18,7 +17,7 @@ namespace {
 
 using Bytes = std::vector<std::byte>;
 
-// Another program wrote this film by FORMAT.md. The first of its two tiles has samples in both parts.
+// A film that another program wrote by FORMAT.md. The first of its two tiles has samples in both parts.
 Bytes golden_film() {
     std::ifstream file(PT_TEST_DATA_DIR "/film/version-1.ptfilm", std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
@@ -46,8 +45,8 @@ const pt::FilmHeader golden_header{{{"scene", "00112233445566778899aabbccddeeff"
                                      }()},
                                     {{3, 1, 2, 2}, pt::SampleSet({8, 10})}}};
 
-// In pixel i of part s, r = (i + s) mod 2 of n samples were rejected. The sum of channel c is (n - r) ((c + 1) 10^25 +
-// 10^18 i + 977 s).
+// In pixel i of part s, r = (i + s) mod 2 of the n samples were rejected. The sum of channel c is (n - r) ((c + 1)
+// 10^25 + 10^18 i + 977 s).
 void set_part(pt::PixelSums &sums, std::uint32_t part, std::uint32_t samples, std::uint32_t s) {
     __extension__ using Wide = unsigned __int128;
     constexpr Wide ten_to_18 = 1'000'000'000'000'000'000U;
@@ -88,7 +87,7 @@ TEST(FilmBytes, Version1StaysReadable) {
     }
 }
 
-// Pieces begin anywhere.
+// Pieces may begin at any byte.
 TEST(FilmBytes, AreWrittenAsTheyWereRead) {
     const Bytes golden = golden_film();
     const pt::FilmReader film(golden);
@@ -135,7 +134,7 @@ std::string with_planes(std::string header) {
 }
 
 TEST(FilmBytes, HeadersHaveOneForm) {
-    constexpr std::size_t pixel_bytes = 56; // bytes of a pixel in one part
+    constexpr std::size_t pixel_bytes = 56;
     const struct {
         const char *header;
         const char *message;

@@ -1,4 +1,3 @@
-// C calls of films without a context.
 #include "tests/support/film_maker.h"
 
 #include <pt/errors.h>

@@ -1,4 +1,3 @@
-// Compares the device's sums with wider integers.
 #include "lib/kernel/device_film.h"
 
 #include "film_sums.spv.h"
@@ -157,8 +156,8 @@ protected:
     }
 };
 
-// The remainder for the next window is nearly a whole unit. Negative control: as many samples as half units would
-// allow.
+// The remainder for the next window is almost a whole unit. Negative control: the number of samples that remainders of
+// half a unit would allow.
 TEST_F(FilmRoundedToZero, WindowsHoldTheMostSamplesThatAnInvocationGathers) {
     if (device().info().kind != PT_DEVICE_CPU)
         GTEST_SKIP() << "a GPU does not round as this thread does";
@@ -197,7 +196,7 @@ TEST(Film, LostSamplesAreAnError) {
     });
     EXPECT_EQ(error.code(), PT_ERROR_INTERNAL);
     EXPECT_STREQ(error.what(), "the driver did 3 of 4 samples of a pixel in one part of the film");
-    // A surplus in the other part does not compensate.
+    // A surplus in the other part does not compensate for a loss.
     EXPECT_EQ(error_of([] {
                   pt::require_samples(one_pixel({9, 5, 0}, {9, 3, 0}).samples_of(0), {4, 4});
               }).code(),

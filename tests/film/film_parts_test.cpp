@@ -1,4 +1,3 @@
-// The samples of a film's two parts.
 #include "lib/film/sample_set.h"
 
 #include "lib/kernel/tile_slice.h"

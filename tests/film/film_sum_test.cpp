@@ -1,4 +1,3 @@
-// The films of several devices are summed on one.
 #include "lib/kernel/film_sum.h"
 #include "lib/kernel/shader_source.h"
 #include "tests/film/film_words.h"
@@ -13,7 +12,7 @@
 
 namespace {
 
-// enough for several pieces
+// gives several pieces
 constexpr std::uint32_t sum_width = 307;
 constexpr std::uint32_t sum_height = 331;
 

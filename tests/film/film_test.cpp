@@ -1,4 +1,4 @@
-// Sums of films have the bytes of films made sample by sample.
+// Sums of films have the bytes of films with all samples.
 #include "lib/film/film.h"
 
 #include "tests/support/expected_error.h"
@@ -25,7 +25,7 @@ Bytes bytes_of(const pt::Film &film) {
     return bytes;
 }
 
-// Returns tiles of 8x8 pixels, as in adaptive sampling, or the whole image.
+// Tiles of 8x8 pixels, as in adaptive sampling, or the whole image.
 std::vector<pt::Rectangle> grid(std::uint32_t width, std::uint32_t height) {
     std::vector<pt::Rectangle> tiles;
     for (std::uint32_t y = 0; y < image_height; y += height)
@@ -44,7 +44,6 @@ Bytes film_by_sample(const Samples &samples) {
     return film_maker::film_of(film_maker::identity(image_width, image_height), film_maker::tiles_of(samples), samples);
 }
 
-// All tiles have one set of samples, or each has its own.
 struct Part {
     Samples samples;
     Bytes bytes;
@@ -73,7 +72,6 @@ Part random_part(std::mt19937 &random, std::uint32_t first) {
     return part;
 }
 
-// The films have equal tiles or overlapping ones.
 TEST(Film, SumsHaveTheBytesOfTheirSamplesInAnyOrder) {
     std::mt19937 random(1);
     for (int round = 0; round < 40; ++round) {
@@ -127,7 +125,7 @@ TEST(Film, KnowsItsSamplesBySquaresThatNoTileCuts) {
     give(samples, {9, 3, 2, 1}, {7});
     const pt::Film cut(film_by_sample(samples));
     EXPECT_EQ(error_of([&] { (void)cut.samples_by_tile(); }).code(), PT_ERROR_INCOMPATIBLE);
-    samples.erase({2, 2}); // leaves a square partly empty
+    samples.erase({2, 2});
     Samples without = samples;
     for (auto &[pixel, indices] : without)
         indices.erase(7);
@@ -144,14 +142,14 @@ TEST(Film, MeansAndErrorsAreRoundedOnce) {
                   for (std::uint32_t i = 0; i < image_width; ++i)
                       for (std::uint32_t channel = 0; channel < 3; ++channel) {
                           const film_maker::Pixel pixel{y, i};
-                          long double sum = 0.0L; // exact: 12 numbers below 2^84, each with 24 bits
+                          long double sum = 0.0L; // Exact: 12 numbers below 2^84 with 24 bits each.
                           int accepted = 0;
                           for (std::uint32_t index = 0; index < 12; ++index)
                               if (!film_maker::is_rejected(pixel, index)) {
                                   sum += static_cast<long double>(film_maker::value_of(pixel, index, channel));
                                   ++accepted;
                               }
-                          const auto mean = static_cast<float>(sum / accepted * 0x1p-63L); // 2^-60 in units of 2^-3
+                          const auto mean = static_cast<float>(sum / accepted * 0x1p-63L); // 2^-60 / 2^3
                           ASSERT_EQ(values[3 * i + channel], mean) << y << ' ' << i;
                       }
               });
@@ -181,7 +179,7 @@ TEST(Film, WhatDoesNotBelongChangesNothing) {
     Samples others;
     give(others, {0, 0, image_width, image_height}, {3, 4});
     EXPECT_EQ(refusal(seed, others), "film.seed = 7: must be 18446744073709551615, as in the film that it is added to");
-    give(others, {8, 8, 4, 4}, {1}); // splits the tiles too
+    give(others, {8, 8, 4, 4}, {1});
     EXPECT_EQ(refusal(same, others),
               "film.samples = [1, 2), [3, 5) in the 4x4 pixels from (8, 8): [1, 2) are already in the film");
 }
@@ -213,7 +211,7 @@ TEST(Film, WhatNoPictureHasIsRefused) {
               "film.seed = nothing: must be from 0 to 18446744073709551615");
     Bytes unharmed = film_maker::film_of(good, grid(8, 8), samples);
     const pt::Film film(unharmed);
-    unharmed[unharmed.size() - 100] ^= std::byte{1}; // a pixel's count, with a valid checksum
+    unharmed[unharmed.size() - 100] ^= std::byte{1}; // A pixel's count, although the checksum is valid.
     seal(unharmed);
     EXPECT_EQ(error_of([&] { const pt::Film damaged(unharmed); }).what(),
               std::string("film: sums that its samples cannot have"));

@@ -1,4 +1,3 @@
-// Converts the film's words to sums.
 #pragma once
 
 #include "lib/film/pixel_sums.h"

@@ -1,4 +1,3 @@
-// Folds of the film's parts on the host.
 #include "lib/kernel/host_fold.h"
 
 #include "tests/film/film_words.h"

@@ -1,4 +1,3 @@
-// Rules of images in the caller's memory.
 #include "lib/render/image.h"
 
 #include "tests/geometry/refusals.h"
@@ -100,7 +99,7 @@ TEST(Image, BrokenRulesAreNamed) {
          {[](pt_image &i) { i.row_bytes = 56; }, "image.row_bytes = 56: must be >= width * 12 (60)"},
          {[](pt_image &i) { --i.size_bytes; }, "image.size_bytes = 179: " + size + "12 (2 * 60 + 60)"},
          {[](pt_image &i) { i.size_bytes = 0; }, "image.size_bytes = 0: " + size + "12 (2 * 60 + 60)"},
-         // 2 * 2^63 is 0 in 64 bits.
+         // 2 * 2^63 overflows to 0.
          {[](pt_image &i) { i.row_bytes = std::uint64_t{1} << 63; },
           "image.size_bytes = 180: " + size + "12 (2 * 9223372036854775808 + 60)"},
          {[](pt_image &i) { i.format = PT_FORMAT_RGBA32F; }, "image.size_bytes = 180: " + size + "16 (2 * 80 + 80)"},

@@ -1,4 +1,4 @@
-// The host computes the same values as the kernels.
+// Compares the host's means and standard errors with the kernels'.
 #include "lib/film/pixel_sums.h"
 
 #include "shaders/quotient.h"
@@ -29,7 +29,7 @@ struct Usual {
     int most_bits;
 };
 
-// Sums with few bits have quotients midway between floats. Some means are equal or close.
+// Sums with few bits have quotients midway between floats. Some pairs of means are equal or nearly equal.
 class RandomSums {
 public:
     explicit RandomSums(const Usual &usual) : usual_(usual) {}
@@ -135,7 +135,7 @@ pt::gpu::uvec4 words_of(pt::WideSum sum) {
             static_cast<std::uint32_t>(sum >> 64), static_cast<std::uint32_t>(sum >> 96)};
 }
 
-// Returns extreme sums, and sums whose quotients are ties between floats or next to ties.
+// Extreme sums, and sums whose quotients are ties between floats or next to ties.
 std::vector<pt::WideSum> close_to_ties(std::uint32_t count) {
     std::vector<pt::WideSum> sums{0, 1, 2, 3, ~pt::WideSum{0}, ~pt::WideSum{0} - 1, pt::WideSum{1} << 127};
     for (const std::uint32_t tie : {(1U << 24) + 1, (1U << 24) + 3, (1U << 25) - 3, (1U << 25) - 1, (1U << 24) + 2})

@@ -1,4 +1,3 @@
-// Random sums and edge cases of films.
 #pragma once
 
 #include "lib/film/pixel_sums.h"

@@ -1,4 +1,3 @@
-// Rectangles and formats of pt_readback have the whole image's bits.
 #include "lib/film/pixel_format.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"

@@ -1,4 +1,3 @@
-// Images in the caller's buffers have the bits of pt_readback(), and arrive in order.
 #include "lib/film/pixel_format.h"
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
@@ -119,7 +118,6 @@ protected:
         return bytes;
     }
 
-    // Semaphores may be null.
     template <typename Record>
     void submit(const Record &record, vk::Semaphore wait, vk::Semaphore signal) {
         if (!pool_)
@@ -215,7 +213,7 @@ TEST_F(ReadbackToBufferTest, WithASemaphoreToSignalTheHostDoesNotWait) {
     }
 }
 
-// The layer reports wrong semaphores in the second round.
+// The validation layer reports wrong semaphores in the second round.
 TEST_F(ReadbackToBufferTest, SemaphoresOrderItOnTheDevice) {
     use_context(true);
     const vk::raii::Semaphore before = caller_->device().createSemaphore({});

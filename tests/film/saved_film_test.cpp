@@ -1,4 +1,3 @@
-// Films saved and added have the bits of uninterrupted renders.
 #include "lib/base/digest.h"
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
@@ -170,7 +169,7 @@ TEST_F(SavedFilm, AContextGoesOnWithTheSamplesThatAreMissing) {
     set_up(context(), settings(0));
     accumulate_on(context(), 10);
     ASSERT_EQ(add(context(), late), PT_OK) << pt_last_error(context());
-    accumulate_on(context(), 7); // 10 to 16
+    accumulate_on(context(), 7); // samples 10 to 16
     ASSERT_EQ(add(context(), middle), PT_OK) << pt_last_error(context());
     accumulate_on(context(), 13);
     EXPECT_EQ(picture_of(context()).stats.sample_count, 80U);
@@ -238,7 +237,6 @@ TEST_F(SavedFilm, StrangersAreRefusedAndNothingChanges) {
         std::copy(to.begin(), to.end(), place);
         return film;
     };
-    // Makes the checksum valid.
     const auto with_another = [](Bytes film, const std::string &name) {
         const std::string start = "\n" + name + ' ';
         const auto value = std::search(film.begin(), film.end(), start.begin(), start.end()) +
@@ -282,7 +280,7 @@ TEST_F(SavedFilm, StrangersAreRefusedAndNothingChanges) {
     }
 }
 
-// Each line alone is valid.
+// Each line would be valid alone.
 TEST_F(SavedFilm, RepeatedLinesAreRefused) {
     Bytes film = part(12, 20);
     set_up(context(), settings(0));

@@ -1,4 +1,3 @@
-// The same samples give the same bits, however they are split into calls.
 #include "lib/film/error_estimate.h"
 #include "tests/kernel/coursework_gpu_scene.h"
 #include "tests/kernel/probe.h"
@@ -38,7 +37,6 @@ protected:
         return image;
     }
 
-    // Each sample is exactly the lamp's radiance.
     Image image_inside_a_lamp(float radiance, uint32_t samples) {
         const pt_material material{{0, 0, 0}, {0, 0, 0}, {radiance, radiance, radiance}, 0, 0};
         const pt_sphere sphere{{0, 0, 0}, 50, {0, 0, 0}, 0, 0};
@@ -54,7 +52,7 @@ TEST_F(ExactnessTest, SplittingOverCallsKeepsTheBits) {
     EXPECT_NE(image_of({7, 19, 37}), at_once) << "a missing sample must show";
 }
 
-// Calls beyond the limits of a dispatch or of the table of points give the bits of small calls.
+// Calls may exceed the limits of a dispatch or of the table of points.
 class GatheringTest : public ExactnessTest {
 protected:
     Context create_fixtures_context() override {
@@ -153,8 +151,8 @@ TEST_F(ExactnessTest, SamplesMayRunOutBeforeTheTargetErrorIsReached) {
     EXPECT_EQ(stats().sample_count, 16U);
 }
 
-// |A - B| sqrt(a b) / n: A has the first a samples, the largest power of two below n, B the others. Calls end before,
-// at, after and across the counts at which parts are folded.
+// |A - B| sqrt(a b) / n. A is the mean of the first a samples, where a is the largest power of two below n. B is the
+// mean of the other b. Calls end before, at, after and across the counts at which parts are folded.
 TEST_F(ExactnessTest, StandardErrorsAreThoseOfTheFilmsParts) {
     const auto standard_errors = [&] {
         Image errors(width * height * 3);
@@ -199,7 +197,7 @@ TEST_F(ExactnessTest, StandardErrorsAreThoseOfTheFilmsParts) {
     }
 }
 
-// Every sample is float32(0.1). The loops exceed 65,535 trips, after which some drivers stop.
+// Every sample is float32(0.1). Some drivers stop loops after 65,535 rounds.
 TEST_F(ExactnessTest, NoSampleIsLostInLongRuns) {
     const Image image = image_inside_a_lamp(0.1F, 1U << 20);
     EXPECT_EQ(image, Image(image.size(), 0.1F));

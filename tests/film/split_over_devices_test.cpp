@@ -1,4 +1,3 @@
-// Several devices, or several pieces, change no bit.
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"

@@ -1,4 +1,3 @@
-// Samples of sets and tiles, and tasks that take each missing sample once.
 #include "lib/film/sample_set.h"
 #include "lib/film/tile_samples.h"
 #include "lib/render/tile_tasks.h"

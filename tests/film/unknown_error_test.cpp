@@ -1,4 +1,3 @@
-// pt_error_estimate.uncertain: where the error cannot be known, and why.
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/scene_of.h"
@@ -19,7 +18,7 @@ namespace {
 constexpr uint32_t width = 32;
 constexpr uint32_t height = 32;
 
-// The floor fills the image. It is 100 below a lamp that covers radius^2 / 40000 of all directions.
+// The floor fills the image. A lamp 100 above it covers radius^2 / 40000 of all directions.
 class UncertainTest : public ContextFixture {
 protected:
     void set_up(double lamp_radius, uint32_t estimator, uint32_t max_path_length = 2,
@@ -49,8 +48,8 @@ protected:
 
 constexpr uint32_t unmet = PT_UNCERTAIN_UNMET;
 
-// A ray hits the lamp with the probability 1/100. 1024 pixels have 164 hits with 16 samples and 2,620 with 256. 1,000
-// are enough.
+// A ray hits the lamp with the probability 1/100. The 1024 pixels have 164 hits with 16 samples and 2,620 with 256. The
+// estimate needs 1,000.
 TEST_F(UncertainTest, WhileALampIsHardlyMetByChance) {
     for (const uint32_t estimator : {PT_ESTIMATOR_UNIFORM, PT_ESTIMATOR_COSINE, PT_ESTIMATOR_BSDF}) {
         set_up(20.0, estimator);
@@ -61,11 +60,11 @@ TEST_F(UncertainTest, WhileALampIsHardlyMetByChance) {
         set_up(20.0, estimator);
         EXPECT_EQ(after(16) & unmet, 0U) << estimator;
     }
-    set_up(20.0, PT_ESTIMATOR_BSDF, 1); // no directions that could hit it
+    set_up(20.0, PT_ESTIMATOR_BSDF, 1); // no directions that could hit the lamp
     EXPECT_EQ(after(16) & unmet, 0U);
 }
 
-// About one in 1,000,000 directions from the floor hits its lobe.
+// About one in 1,000,000 directions from the floor hits the floor's lobe.
 TEST_F(UncertainTest, WhileALobeIsHardlyMetByChance) {
     for (const uint32_t estimator : {PT_ESTIMATOR_UNIFORM, PT_ESTIMATOR_COSINE, PT_ESTIMATOR_BSDF}) {
         set_up(50.0, estimator, 2, {0.0, 100.0, 0.0}, 1.0, 1e6F);
@@ -73,8 +72,8 @@ TEST_F(UncertainTest, WhileALobeIsHardlyMetByChance) {
     }
 }
 
-// A visible lamp that covers a 20th of a pixel is hit .8 times by 16 samples, and 13 times by 256. It does not count
-// beside the view.
+// A visible lamp that covers a 20th of a pixel is hit .8 times by 16 samples, and 13 times by 256. Its light on other
+// surfaces is negligible.
 const double lamp_of_a_20th = 10.0 * 2.0 * std::tan(0.5) / height * std::sqrt(0.05 / 3.14159); // at distance 10
 
 TEST_F(UncertainTest, WhileSamplesHardlyMeetALampInView) {
@@ -85,7 +84,7 @@ TEST_F(UncertainTest, WhileSamplesHardlyMeetALampInView) {
     }
 }
 
-// A lamp that covers 2.5e-9 of all directions is never hit. Two black parts agree, but this proves nothing.
+// A lamp that covers 2.5e-9 of all directions is never hit. Two black parts agree, although the light is unknown.
 TEST_F(UncertainTest, NothingIsKnownOfAPictureThatIsBlackByChance) {
     set_up(0.01, PT_ESTIMATOR_BSDF);
     EXPECT_EQ(after(16), unmet);
@@ -95,7 +94,7 @@ TEST_F(UncertainTest, NothingIsKnownOfAPictureThatIsBlackByChance) {
     EXPECT_TRUE(std::isfinite(error().relative_rmse_high));
 }
 
-// Everything else is black, so any target seems to be reached at once.
+// Everything else is black, so the target would seem to be reached at once.
 TEST_F(UncertainTest, NoTargetIsReachedBeforeALampInViewIsMet) {
     for (const uint32_t sampling : {PT_SAMPLING_UNIFORM, PT_SAMPLING_ADAPTIVE}) {
         set_up(lamp_of_a_20th, PT_ESTIMATOR_MIS, 1, {0.0, -10.0, 0.0}, 20.0);

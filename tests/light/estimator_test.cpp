@@ -1,4 +1,3 @@
-// All estimators and samplers have the same mean.
 #include "tests/support/batch_fixture.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/support/scene_of.h"
@@ -97,7 +96,7 @@ TEST_P(EstimatorMeans, AgreeForAllEstimatorsAndSamplers) {
             worst_error = std::max(worst_error, means.whole.standard_error / means.whole.mean);
         }
     std::printf("largest standard error of a mean: %.2f%%\n", 100.0 * worst_error);
-    // Negative control: a lamp that is 25% brighter for the least precise, or 1% for the most precise estimator.
+    // Negative control: the lamp is brighter by 25% for the least precise estimator, or by 1% for the most precise one.
     EXPECT_GT(0.25 / worst_error, bound);
     EXPECT_GT(std::abs(deviation(reference.whole, 1.01 * reference.whole.mean)), bound);
 }

@@ -1,4 +1,4 @@
-// Compares the device's samples of lamps with the stated densities, and these with double.
+// Compares the device's samples of lamps with the stated densities, and these densities with double precision.
 #include "lamps.spv.h"
 #include "shaders/specialization.h"
 #include "tests/kernel/probe.h"
@@ -24,15 +24,15 @@ struct Drawn {
     glm::vec3 direction;
     float distance;
     std::uint32_t lamp;
-    float density;     // per solid angle, given the lamp
-    float hit_density; // density of a direction that hits the lamp by chance
+    float density;     // of the direction per solid angle, if this lamp is chosen
+    float hit_density; // density of the direction if lamps are found by chance
     float probability;
 };
 
 struct Viewpoint {
     glm::vec3 position{0};
     glm::vec3 normal{0, 1, 0};
-    std::uint32_t surface = 0xffffffffU; // surface of the vertex
+    std::uint32_t surface = 0xffffffffU;
 };
 
 std::vector<Drawn> draw(const std::vector<Lamp> &lamps, const Viewpoint &from, std::uint32_t seed,
@@ -60,12 +60,12 @@ std::vector<Drawn> draw(const std::vector<Lamp> &lamps, const Viewpoint &from, s
 
 const std::vector<Lamp> uneven_lamps = {
     {{0.5F, 3.0F, -1.0F}, 1.0F, 2.0F},       {{4.0F, -0.3F, 2.0F}, 0.8F, 30.0F},  // center below the horizon
-    {{-300.0F, 500.0F, 200.0F}, 0.5F, 1e6F}, {{-0.6F, 0.55F, 0.5F}, 0.9F, 0.01F}, // the second surface is 0.05 away
+    {{-300.0F, 500.0F, 200.0F}, 0.5F, 1e6F}, {{-0.6F, 0.55F, 0.5F}, 0.9F, 0.01F}, // second one: 0.05 away
     {{0.0F, -5.0F, 0.0F}, 2.0F, 1e8F},                                            // wholly below the horizon
     {{-3.0F, 1.0F, 4.0F}, 0.02F, 5000.0F},   {{1.0F, 0.2F, -0.5F}, 0.1F, 1e-4F},
 };
 constexpr std::size_t below_horizon = 4;
-// If probabilities are wrong by 3%, a chi-square grows by 2^19 * 0.03^2 = 472. Its standard deviation is below 4.
+// Probabilities that are wrong by 3% add to a chi-square 2^19 * 0.03^2 = 472. Its standard deviation is below 4.
 constexpr std::uint32_t draws_of_lamps = 1U << 19;
 
 const double lamp_bound = statistics::normal_quantile(1e-6 / 2);
@@ -133,7 +133,7 @@ TEST(LampChoice, LeavesOutLampsThatContainTheVertexOrAreIt) {
     const std::vector<Lamp> lamps = {
         {{0.1F, 0.2F, 0.0F}, 1.0F, 5.0F},
         {{0.0F, -2.0F, 0.0F}, 2.0F, 5.0F},
-        {{0.0F, 1000.0F, 0.0F}, 0.1F, 1e-6F} // the only one left
+        {{0.0F, 1000.0F, 0.0F}, 0.1F, 1e-6F} // the only lamp above the horizon
     };
     Viewpoint on_second;
     on_second.surface = 1;

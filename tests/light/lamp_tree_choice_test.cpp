@@ -1,4 +1,3 @@
-// Compares choices from the lamp tree with their stated probabilities.
 #include "tests/light/lamp_tree_probe.h"
 #include "tests/light/lamp_tree_reference.h"
 #include "tests/support/lamp_scenes.h"
@@ -15,7 +14,7 @@
 
 namespace {
 
-// Lamps with fewer than 20 expected choices share a cell.
+// Lamps with fewer than 20 expected choices are counted together.
 struct Frequencies {
     std::vector<double> observed, expected, wrong;
 };
@@ -62,8 +61,8 @@ void expect_what_is_stated(const std::vector<TreeDrawn> &drawn, const std::vecto
     }
 }
 
-// A probability of 1e-6 over 72 chi-squares is at 5.6 deviations. Errors of 10% add 2^16 * 0.1^2 = 655, which is 15
-// deviations for 1000 lamps.
+// Over 72 chi-squares the bound allows one false alarm in a million, at 5.6 standard deviations. Errors of 10% add 2^16
+// * 0.1^2 = 655 to a chi-square, which is 15 standard deviations for 1000 lamps.
 TEST(LampTreeChoice, FollowsTheStatedProbability) {
     const double bound = statistics::normal_quantile(1e-6 / 72);
     for (const auto &[name, scene] : lamp_scenes::all()) {

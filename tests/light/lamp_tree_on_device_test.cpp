@@ -1,4 +1,4 @@
-// Compares stated probabilities of lamps in a tree with double, and with ideal ones.
+// Compares stated probabilities of lamps in a tree with double precision, and with ideal probabilities.
 #include "tests/light/lamp_tree_probe.h"
 #include "tests/light/lamp_tree_reference.h"
 #include "tests/support/lamp_scenes.h"
@@ -14,8 +14,8 @@
 
 namespace {
 
-// Differences of positions change a quotient by up to 2^-20, because nothing is nearer to a vertex than a 1000th of the
-// vertex's distance from the camera.
+// Rounded positions change a quotient by up to 2^-20, because the distance between any lamp and a vertex is at least a
+// 1000th of the vertex's distance from the camera.
 TEST(LampTreeProbabilities, AreThoseOfAReferenceInDouble) {
     for (const auto &[name, scene] : lamp_scenes::all()) {
         const pt::GpuScene gpu_scene = lamp_scenes::gpu_scene(scene);
@@ -33,13 +33,13 @@ TEST(LampTreeProbabilities, AreThoseOfAReferenceInDouble) {
                 stated_sum += stated[lamp];
             }
             EXPECT_NEAR(sum, 1.0, 1e-12) << name;
-            EXPECT_NEAR(stated_sum, 1.0, 64 * 0x1p-24) << name; // a few roundings per level
+            EXPECT_NEAR(stated_sum, 1.0, 64 * 0x1p-24) << name; // a few roundings in each level
         }
     }
 }
 
-// Returns sum (w^2 / P) / (sum w)^2 - 1. It is 0 for weights alone, at most 1 / 9 with the uniform share, and 9 by
-// power alone.
+// sum (w^2 / P) / (sum w)^2 - 1, where w is the light of a lamp and P its probability. The result is 0 for
+// probabilities in proportion to the light, at most 1 / 9 with the evenly chosen tenth, and 9 by power alone.
 double relative_variance(TreeProbe &probe, const pt::GpuScene &scene, const TreeVertex &vertex) {
     const std::vector<double> weights = lamp_weights(scene, vertex);
     const std::vector<double> probabilities = probe.probabilities(vertex);

@@ -1,4 +1,3 @@
-// Chooses lamps by the tree from vertices all over a scene.
 #pragma once
 
 #include "lamps.spv.h"
@@ -17,7 +16,7 @@ struct TreeVertex {
     std::uint32_t surface = 0xffffffffU;
 };
 
-// The output of lamps.comp.
+// Output of lamps.comp.
 struct TreeDrawn {
     glm::vec3 direction;
     float distance;

@@ -1,4 +1,3 @@
-// The lamp tree's choices in double.
 #pragma once
 
 #include "lib/kernel/gpu_scene.h"
@@ -16,7 +15,7 @@
 
 inline constexpr double uniform_share = 0.1;
 
-// Reads the words as gpu_layout.h describes them.
+// Reads the words of the tree as gpu_layout.h describes them.
 class TreeReference {
 public:
     explicit TreeReference(const pt::GpuScene &scene) : features_(scene.features), words_(scene.words) {

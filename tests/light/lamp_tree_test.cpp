@@ -1,4 +1,3 @@
-// The host's part of the lamp tree: its shape, order and words.
 #include "lib/kernel/lamp_tree_words.h"
 #include "lib/kernel/scene_blocks.h"
 #include "lib/scene/lamp_tree.h"
@@ -68,7 +67,7 @@ struct HeldNode {
     glm::vec3 open, way;
     float power, spread;
 
-    glm::vec3 at(float time) const { return open + time * way; } // float32, like the kernel
+    glm::vec3 at(float time) const { return open + time * way; }
 };
 
 HeldNode held_node(const pt::GpuScene &scene, std::uint64_t group, int place) {

@@ -1,4 +1,4 @@
-// Spots: planes close to a lamp, and surfaces that mirror one.
+// Spots are planes close to a lamp, and surfaces that mirror a lamp.
 #include "lib/kernel/gpu_scene.h"
 #include "lib/kernel/light_spots.h"
 

@@ -1,4 +1,3 @@
-// Code that the kernel omits for a scene changes no image.
 #include "tests/invariance/invariance_scene.h"
 #include "tests/kernel/kernel_render.h"
 
@@ -28,8 +27,8 @@ Image image_with_other(const KernelRender &render, std::uint32_t id) {
     return image_with(render, constants);
 }
 
-// Counts values that differ by more than rounding along equal paths. A vertex has an error of 2^-24 of its distance,
-// and each of two balls magnifies it by up to 2 distance / radius = 30. The result is below 1e-3.
+// Counts values that differ by more than rounding along equal paths. A vertex has an error of 2^-24 of its distance.
+// Each of two balls magnifies this error by up to 2 distance / radius = 30, so values differ by less than 1e-3.
 std::size_t differing_values(const Image &a, const Image &b) {
     const float mean = std::accumulate(a.begin(), a.end(), 0.0F) / static_cast<float>(a.size());
     std::size_t count = 0;
@@ -38,8 +37,9 @@ std::size_t differing_values(const Image &a, const Image &b) {
     return count;
 }
 
-// Rounding decides rays within 2^-20 of the scene's size from rims and contacts. This concerns half a sample on average
-// in 3072 of 20 rays and 9 surfaces each. More than 6 samples of 3 values have a probability of 1e-6.
+// Rounding decides which surface is hit if a ray passes a rim or contact within 2^-20 of the scene's size. With 20 rays
+// and 9 surfaces each, on average half a sample of the 3072 is affected. More than 6 samples of 3 values have a
+// probability of 1e-6.
 constexpr std::size_t decided_by_rounding = 18;
 
 InvarianceScene room() {
@@ -55,7 +55,7 @@ struct Case {
     InvarianceScene scene;
     std::uint32_t id;
     std::uint32_t constant;
-    bool shows; // whether inverting the constant changes the image
+    bool shows; // Whether the inverted constant changes the image.
 };
 
 // The last cases are negative controls.

@@ -1,4 +1,4 @@
-// Compares opacities with shares in closed form, and light with a path tracer in double.
+// Compares opacities with closed forms, and the light with a path tracer in double.
 #include "tests/support/light_in_double.h"
 
 #include <pt/stats.h>
@@ -22,7 +22,7 @@ using namespace light_in_double;
 
 class Opacity : public LightInDouble {
 protected:
-    // Returns the share of a sky's light (radiance 3, 4, 5) that passes black capsules.
+    // Returns the fraction of a sky's light (radiance 3, 4, 5) that passes black capsules.
     double share_passed(const std::vector<Given::Capsule> &capsules) {
         return mean(image(under_sky(capsules), 256)) / 4.0;
     }
@@ -112,8 +112,8 @@ Given::Capsule rod(const glm::dvec3 &from, const glm::dvec3 &to, float opacity, 
     return {{from.x, from.y, from.z}, {to.x, to.y, to.z}, 1.0, material, opacity};
 }
 
-// The product of their shares passes, even if most of their numbers are equal. Negative control: duplicates, which
-// count once.
+// The product of their transmitted fractions passes, even if most of their numbers are equal. Negative control:
+// duplicates, which count once.
 TEST_F(Opacity, OfSurfacesThatDifferIsIndependent) {
     const glm::dvec3 atom(0, 0, 1);
     const std::vector<Given::Capsule> bonds{rod(atom, {2, 0, 1}, 0.5F), rod(atom, {0, 2, 1}, 0.5F)};
@@ -162,8 +162,9 @@ TEST_F(Opacity, OfColorsAndMotionsIsIndependent) {
     EXPECT_NEAR(passed({still, still}), 0.5, 0.008) << "duplicates";
 }
 
-// Each 16 of a pixel's 256 points fall into 16 equal parts. The share has a standard deviation of at most 2 rays, and
-// every pixel stays within five deviations. Negative control: random numbers, with a deviation of 8 rays.
+// Every 16 consecutive points of a pixel's 256 fall into 16 equal intervals. The fraction of blocked rays then has a
+// standard deviation of at most 2 rays, and every pixel stays within five of them. Negative control: random numbers,
+// with 8 rays.
 TEST_F(Opacity, OfOneSurfaceIsEvenlySpread) {
     Given given = under_sky({ball_at({0, 0, 1}, 1.0, 0.4F)});
     std::ranges::fill(given.materials[2].emission, 1.0F);
@@ -179,10 +180,10 @@ TEST_F(Opacity, OfOneSurfaceIsEvenlySpread) {
 }
 
 // Returns the variance of the product of two decisions over lattices (i / N, r i / N) of N = 2^m points, with random
-// shifts and random odd r. A frequency that is 2^v times an odd number contributes only if the other frequency is one
-// too, and then only in 2^(v + 1) of N lattices. For one decision, the frequencies that are multiples of 2^v have the
-// variance t (1 - t) / 4^v, where t is the fraction of 2^v times the opacity. A single decision keeps only its
-// multiples of N.
+// shifts and random odd r. A frequency that is 2^v times an odd number contributes only if the other frequency has the
+// same v, and then only in 2^(v + 1) of N lattices. For one decision, the frequencies that are multiples of 2^v have
+// the variance t (1 - t) / 4^v, where t is the fractional part of 2^v times the opacity. A single decision keeps only
+// its multiples of N.
 double variance_of_two(double opacity, std::uint32_t count) {
     const auto of_multiples = [&](double step) {
         const double fraction = step * opacity - std::floor(step * opacity);
@@ -197,8 +198,8 @@ double variance_of_two(double opacity, std::uint32_t count) {
     return sum / count + 2.0 * clear * clear * of_multiples(count);
 }
 
-// Each 16 samples have another lattice. The mean square over 6,144 pixels must be within five standard errors of its
-// expectation, and the stated error must not be a tenth too small. Negative control: one lattice for all pixels.
+// Every 16 samples have another lattice. The mean square over 6,144 pixels must be within five standard errors of the
+// expected value, and the stated error at most a tenth too small. Negative control: one lattice for all pixels.
 TEST_F(Opacity, OfTwoSurfacesHasManyLattices) {
     Given given = under_sky({ball_at({0, 0, 2}, 1.0, 0.4F), ball_at({0, 0, -2}, 1.0, 0.4F)});
     std::ranges::fill(given.materials[2].emission, 1.0F);
@@ -250,7 +251,7 @@ Given sticks() {
     return given;
 }
 
-// Opaque sticks that share an end stay in the list beside the tree of a translucent one.
+// Opaque sticks that share an end are listed beside the tree of a translucent stick.
 Given opaque_sticks() {
     Given given;
     given.camera = camera_at({2, 0, 6.7}, {0, 0, 0}, 0.6);

@@ -1,4 +1,3 @@
-// Compares radical inverses with exact values. Tests net properties of Sobol points, and the kernel's table.
 #include "lib/kernel/point_sequence.h"
 
 #include <gtest/gtest.h>
@@ -91,7 +90,7 @@ TEST(RadicalInverse, OfTheLastDimensionMatchesItsDigits) {
             place /= 311.0L;
             value += place * static_cast<long double>(rest % 311);
         }
-        // With 64 bits of mantissa, the floor is wrong only within 2^-30 of an integer.
+        // long double has 64 bits of mantissa, so only values within 2^-30 of an integer may have a wrong floor.
         const long double scaled = value * 4294967296.0L;
         EXPECT_NEAR(static_cast<double>(scaled), pt::radical_inverse(index, pt::sequence_dimensions - 1) + 0.5, 0.501)
             << "index " << index;
@@ -109,7 +108,7 @@ constexpr std::uint32_t net_digits = 10;
 constexpr std::uint32_t net_size = 1U << net_digits;
 constexpr std::uint32_t net_starts[] = {0, net_size, 77 * net_size, 0x80000000U, 0xffffffffU - net_size + 1};
 
-// A (0,1)-sequence in base 2 has one point of an aligned block of 2^k in each of 2^k intervals.
+// A (0,1)-sequence in base 2: of each aligned block of 2^k points, each of 2^k intervals has one.
 TEST(Sobol, EveryDimensionIsAZeroOneSequence) {
     for (std::uint32_t dimension = 0; dimension < pt::sequence_dimensions; ++dimension)
         for (const std::uint32_t start : net_starts)
@@ -118,7 +117,7 @@ TEST(Sobol, EveryDimensionIsAZeroOneSequence) {
                     << "dimension " << dimension << ", 2^" << digits << " points from " << start;
 }
 
-// A (0,2)-sequence in base 2 has one point of an aligned block of 2^m in each elementary box of volume 2^-m.
+// A (0,2)-sequence in base 2: of each aligned block of 2^m points, each elementary box of volume 2^-m has one.
 TEST(Sobol, TheFirstTwoDimensionsAreAZeroTwoSequence) {
     for (const std::uint32_t start : net_starts) {
         const Coordinates x = sobol_coordinates(start, net_size, 0);
@@ -128,7 +127,7 @@ TEST(Sobol, TheFirstTwoDimensionsAreAZeroTwoSequence) {
     }
 }
 
-// A wrong row could repeat another and still be a (0,1)-sequence.
+// A wrong dimension could repeat another one and still be a (0,1)-sequence.
 TEST(Sobol, DimensionsDiffer) {
     std::vector<Coordinates> all;
     for (std::uint32_t dimension = 0; dimension < pt::sequence_dimensions; ++dimension)
@@ -138,7 +137,7 @@ TEST(Sobol, DimensionsDiffer) {
 }
 
 TEST(Sobol, NegativeControls) {
-    const Coordinates unaligned = sobol_coordinates(1, net_size / 2, 5); // 512 points across a boundary
+    const Coordinates unaligned = sobol_coordinates(1, net_size / 2, 5); // 512 points across the boundary of a block
     EXPECT_TRUE(fills_intervals(sobol_coordinates(0, net_size / 2, 5), net_digits - 1));
     EXPECT_FALSE(fills_intervals(unaligned, net_digits - 1));
     Coordinates one_bit_off = sobol_coordinates(0, net_size, 5);
@@ -173,7 +172,7 @@ std::uint32_t scrambled_in_64_bits(std::uint32_t coordinate, std::uint32_t seed)
 constexpr std::size_t random_count = 1U << 16;
 
 TEST(OwenScrambling, IsExact) {
-    std::mt19937 words(1); // NOLINT: the same numbers each time
+    std::mt19937 words(1); // NOLINT: fixed seed
     for (std::size_t i = 0; i < random_count; ++i) {
         const auto coordinate = static_cast<std::uint32_t>(words());
         const auto seed = static_cast<std::uint32_t>(words());
@@ -280,7 +279,7 @@ TEST(PointTable, BranchesArePointsOfTheirOwnInTheDimensionsThatTheyDoNotShare) {
     }
 }
 
-// Sample 2^30 + i has the points 2^32 + 4 i + b. Sobol's 32 bits repeat them, so they need another scramble.
+// Sample 2^30 + i has the points 2^32 + 4 i + b. Their low 32 bits repeat, so another scramble must tell them apart.
 TEST(PointTable, OfSobolRepeatsNoPoint) {
     const pt::PointLayout layout{{3, 2, 4, 4}, 2, 4};
     const auto row_of = [&](std::uint32_t index) {

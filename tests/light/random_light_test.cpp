@@ -1,5 +1,5 @@
-// Compares random scenes with a path tracer in double. PT_TEST_SCENES is their number. By default each kind has one in
-// a tree and one in a list.
+// Compares random scenes with a path tracer in double. PT_TEST_SCENES sets the number of scenes. By default each kind
+// of scene has one in a tree and one in a list.
 #include "tests/support/batch_fixture.h"
 #include "tests/support/light_in_double.h"
 #include "tests/support/shared_context.h"
@@ -18,7 +18,7 @@ namespace {
 
 using namespace light_in_double;
 
-constexpr std::uint32_t material_count = 4; // each also hidden
+constexpr std::uint32_t material_count = 4; // each also as a hidden material
 constexpr std::uint32_t lamp = 2;
 constexpr std::uint32_t glossy = 3;
 
@@ -39,7 +39,7 @@ struct Picture {
     Kind kind;
     bool has_tree;
     Given given;
-    Given expected; // without twins
+    Given expected;
     pt_render render;
 
     std::string name() const { return std::string(kind_names[kind]) + (has_tree ? ", tree" : ", list"); }
@@ -58,7 +58,8 @@ public:
         Given &given = picture.given;
         set_materials(given, picture.kind);
         add_balls(given, picture.kind);
-        // Estimators that find lamps by chance are compared where they find one often: skewed noise fits no bound.
+        // Some estimators find lamps only by chance. They are compared only where this is frequent, because no bound
+        // fits skewed noise.
         if (picture.kind == hidden || picture.kind == weak_estimators || chance(0.4))
             given.spheres.push_back({{0, 0, 0}, uniform(15, 30), {0, 0, 0}, perhaps_hidden(picture.kind, lamp), 0});
         given.planes[0].material = perhaps_hidden(picture.kind, 1);
@@ -69,7 +70,7 @@ public:
             add_rods(given);
         set_camera(given, picture.kind);
         picture.expected = given;
-        // Narrow and parallel views start near a surface. They and trees resolve more in float32.
+        // Narrow and parallel views start near a surface. Like trees, they have smaller float32 errors.
         const bool tells_more = picture.has_tree || given.camera.vertical_fov != 0.8;
         if (picture.kind == twins)
             add_twins(given, tells_more ? 0.0 : 1e-7);
@@ -121,7 +122,7 @@ private:
         }
     }
 
-    // Three chains of translucent rods, whose neighbours share a center.
+    // Three chains of translucent rods. Neighbors share a center.
     void add_rods(Given &given) {
         for (std::uint32_t i = 0; i < 12; ++i) {
             Given::Capsule rod{{uniform(-2, 2), uniform(-1.2, 1.5), uniform(-2, 2)},
@@ -194,8 +195,8 @@ protected:
         return deviation(picture.has_tree ? with_tree_.get() : context(), given, exact, picture.render);
     }
 
-    // Returns the sum of deviations over the standard deviation of Student's t with 11 degrees of freedom. It is
-    // clamped for images without noise.
+    // The sum of deviations over the standard deviation of Student's t with 11 degrees of freedom. It is clamped for
+    // images without noise.
     static double pooled(const std::vector<double> &deviations) {
         double sum = 0.0;
         for (const double deviation : deviations)
@@ -222,8 +223,8 @@ Given turned(const Picture &picture) {
 }
 
 // The bounds allow one false alarm in a thousand runs for images and blocks, and one in ten thousand for all together.
-// Negative controls: lobes with 3% more in one scene of each kind. With trees there are also lamps that are 3%
-// brighter, and another view.
+// Negative controls are lobes with 3% more in one scene of each kind. With trees, lamps that are 3% brighter and
+// another view are further controls.
 TEST_F(RandomLight, IsThatOfAPathTracerInDouble) {
     const double bound = student_bound(1e-3 / (14.0 * scene_count()), image_count);
     std::vector<double> deviations;
@@ -258,7 +259,7 @@ TEST_F(RandomLight, IsThatOfAPathTracerInDouble) {
                 of_turned);
     EXPECT_LT(std::abs(pooled(deviations)), bound_of_all);
     if (first > 0)
-        return; // the controls are among the first scenes
+        return;
     EXPECT_GT(pooled(brighter), bound_of_all);
     EXPECT_GT(pooled(glossier), bound_of_all);
     EXPECT_GT(of_turned, 20.0);

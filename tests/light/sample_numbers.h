@@ -1,4 +1,3 @@
-// The sampler's numbers from the device, and their statistics.
 #pragma once
 
 #include "lib/kernel/point_sequence.h"
@@ -31,7 +30,7 @@ struct Request {
     std::uint64_t table_seed() const { return std::uint64_t{seed.x} << 32 | seed.y; }
 };
 
-// The numbers times 2^24, pixel by pixel.
+// Numbers times 2^24, pixel by pixel.
 using Blocks = std::vector<glm::uvec4>;
 
 inline constexpr double scale = 16777216.0;
@@ -51,10 +50,9 @@ inline Blocks as_integers(const std::vector<glm::vec4> &numbers) {
 }
 
 inline constexpr std::uint32_t table_blocks = 4;
-inline constexpr std::uint32_t shared_blocks = 1; // without lamps
+inline constexpr std::uint32_t shared_blocks = 1; // for scenes without lamps
 inline constexpr std::uint32_t most_blocks = 6000;
 
-// The probe's table has rows for up to 256 samples with one branch.
 inline pt::PointLayout layout_of(std::uint32_t branches) {
     return {std::vector<std::uint32_t>(table_blocks, 4), shared_blocks, branches};
 }

@@ -1,4 +1,3 @@
-// Scrambles of Sobol points differ by pixel, dimension and seed.
 #include "tests/light/sample_numbers.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +10,7 @@ using namespace sample_numbers;
 
 namespace {
 
-// 64 points of 24 bits are never equal by chance.
+// 64 points of 24 bits do not agree by chance.
 TEST(SamplerSobol, ScramblesDifferBetweenPixelsDimensionsAndSeeds) {
     Request request;
     request.pixel_count = 1024;
@@ -32,8 +31,8 @@ TEST(SamplerSobol, ScramblesDifferBetweenPixelsDimensionsAndSeeds) {
     EXPECT_EQ(distinct.size(), taken);
 }
 
-// Point 0 is the origin, so its numbers are only scramble and shift. Their first digits must be independent between a
-// path's blocks. Otherwise Russian roulette is wrong at low sample counts.
+// Point 0 is the origin, so its numbers are scramble and shift alone. Their first digits must be independent between
+// the blocks of a path, or Russian roulette is wrong at low sample counts.
 std::vector<std::vector<std::uint32_t>> scrambles_of_blocks(int component_index) {
     std::vector<std::vector<std::uint32_t>> blocks;
     for (std::uint32_t block = 0; block < table_blocks; ++block) {
@@ -60,8 +59,8 @@ double triple_deviate(const std::vector<std::uint32_t> &x, const std::vector<std
     return statistics::chi_square_deviate(observed, std::vector<double>(cells, static_cast<double>(x.size()) / cells));
 }
 
-// A pixel's shifts are multiples of one word. If factors of three blocks summed to 0 with small weights, the shifts
-// would lie on few planes.
+// A pixel's shifts are multiples of one word. If the factors of three blocks, with small weights, summed to 0, the
+// shifts would lie on few planes.
 TEST(SobolScrambling, IsIndependentAmongThreeBlocksOfAPath) {
     for (const int which : {0, 1, 2}) {
         const auto blocks = scrambles_of_blocks(which);

@@ -1,4 +1,3 @@
-// Tests the range and uniformity of the device's numbers, and each sampler's promises.
 #include "tests/light/sample_numbers.h"
 
 #include <gtest/gtest.h>
@@ -72,7 +71,7 @@ TEST_P(Sampler, IsRandomBeyondTheTable) {
     EXPECT_EQ(take(GetParam(), request) == take(PT_SAMPLER_RANDOM, request), GetParam() == PT_SAMPLER_RANDOM);
 }
 
-// This holds without a table, and if B i + b exceeds 2^32.
+// The numbers need no table, and B i + b may exceed 2^32.
 TEST(SamplerRandom, BranchesAreSamplesOfTheirOwn) {
     constexpr std::uint32_t branches = 4;
     Request request;
@@ -117,7 +116,7 @@ TEST(SamplerHalton, IsTheRadicalInverseInEveryPixel) {
     }
 }
 
-// After the shared blocks, branch b of sample i is sample B i + b, even if that exceeds 2^32.
+// After the shared blocks, branch b of sample i is sample B i + b.
 TEST(SamplerHalton, OfABranchIsTheRadicalInverseOfASampleOfItsOwn) {
     constexpr std::uint32_t branches = 4;
     Request request;
@@ -137,7 +136,7 @@ TEST(SamplerHalton, OfABranchIsTheRadicalInverseOfASampleOfItsOwn) {
         }
 }
 
-// Numbers are shifted digit by digit, or modulo 1. Truncation to 24 bits then leaves one unit.
+// Numbers are shifted digit by digit, or modulo 1. Truncation to 24 bits may change them by one unit.
 bool is_shifted_in_pixels(const Table &table, const Blocks &blocks, std::uint32_t sampler, const Request &request) {
     constexpr std::uint32_t mask = (1U << 24) - 1;
     const auto shift_of = [&](std::uint32_t place, int d) {
@@ -171,7 +170,7 @@ TEST(SamplerShifts, AreOneInEachPixelAndDimension) {
         }
 }
 
-// Halton's points over pixels are uneven, and a correlation of 3 in 100 shows.
+// Halton's points are uneven over pixels, and a correlation of 3% is detected.
 TEST(SamplerChecks, NegativeControls) {
     Request request;
     request.pixel_count = 1U << 18;

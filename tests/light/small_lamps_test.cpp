@@ -1,4 +1,3 @@
-// Small lamps: their pixels, the error that no sample shows, and the smallest share of directions.
 #include "lib/render/missed_lamps.h"
 #include "lib/render/small_lamps.h"
 #include "lib/scene/camera.h"
@@ -26,7 +25,7 @@ constexpr std::uint32_t dark = 0;
 constexpr std::uint32_t lamp = 1;
 constexpr std::uint32_t hidden = 2;
 
-// With 200 rows a pixel at depth 100 has side 1.
+// At depth 100 a pixel of 200 rows has side 1.
 constexpr pt::Camera camera{.position = {1.0, 2.0, 3.0},
                             .right = {1, 0, 0},
                             .up = {0, 1, 0},
@@ -66,7 +65,7 @@ double share_of(const std::vector<pt::LampPiece> &pieces, std::uint32_t x, std::
 
 constexpr double radius = 0.25;
 constexpr double size = std::numbers::pi * radius * radius;
-constexpr double thin = 2e-4; // Each of 256 lines has an error of at most its height's square.
+constexpr double thin = 2e-4; // Each of 256 lines has an error of at most the square of its height.
 
 TEST(SmallLamps, AreSpreadOverPixels) {
     for (const pt::Camera &seen_by : {camera, parallel_camera()})
@@ -82,7 +81,7 @@ TEST(SmallLamps, AreSpreadOverPixels) {
                 for (const std::uint32_t y : {99U, 100U})
                     EXPECT_NEAR(share_of(corner, x, y), 0.25 * size, thin);
         }
-    // Area of the segment of a disc beyond a line at half its radius.
+    // Area of the part of a disc beyond a line at half the radius.
     const double segment = radius * radius * (std::numbers::pi / 3.0 - std::sqrt(3.0) / 4.0);
     const auto aside = pieces_of({sphere_at(0.5 * radius, 0.5, 100, radius, lamp)});
     EXPECT_NEAR(share_of(aside, 199, 99), segment, thin);
@@ -141,11 +140,11 @@ TEST(SmallLamps, AreThoseThatTheCameraSees) {
     EXPECT_EQ(count_of({seen}, {wall}), 0U) << "behind a plane";
 }
 
-// A lamp crosses a pixel in the time that it takes to the next pixel. The pixel sees its area for this time.
+// The pixel sees the lamp's area for the time in which the lamp moves by one pixel.
 TEST(SmallLamps, AreSpreadByTheirMotion) {
     pt::Camera open = camera;
     open.shutter_close = 1.0;
-    for (const double way : {20.0, 300.0}) { // sampled at every pixel, and at fewer moments
+    for (const double way : {20.0, 300.0}) { // sampled at every pixel or at fewer moments
         pt_sphere moving = sphere_at(-0.5 * way, 0.5, 100, radius, lamp);
         moving.motion[0] = way;
         double seen = 0.0;
@@ -155,16 +154,16 @@ TEST(SmallLamps, AreSpreadByTheirMotion) {
             seen += piece.pixels * piece.share;
             largest = std::max(largest, piece.share);
         }
-        EXPECT_NEAR(seen, size, 0.01 * size) << way; // The lamp has fewer lines.
+        EXPECT_NEAR(seen, size, 0.01 * size) << way; // The lamp has fewer lines, so the tolerance is larger.
         EXPECT_NEAR(largest, size / way, 0.01 * size / way) << way;
     }
 }
 
-// A veil passes 1 - opacity of the light. It may lie around the lamp or before it, and the lamp may be small or large.
+// A veil passes 1 - opacity of the light. Veils lie around the lamp or before it, and lamps are small or large.
 TEST(SmallLamps, ShineThroughVeils) {
     const double center[] = {1.0, 2.0, -97.0, 1.0, 2.0, -60.0, 31.0, 2.0, -60.0};
     const double radii[] = {10.0, 5.0, 5.0};
-    const float opacities[] = {0.2F, 0.6F, 1.0F}; // 51 and 153 of 255
+    const float opacities[] = {0.2F, 0.6F, 1.0F}; // 0.2 and 0.6 are 51 and 153 of 255.
     const std::vector<pt_sphere_array> veils{{sizeof(pt_sphere_array),
                                               3,
                                               {center, sizeof(double[3]), PT_TYPE_FLOAT64},
@@ -177,7 +176,7 @@ TEST(SmallLamps, ShineThroughVeils) {
     const auto small = pieces_of({sphere_at(0.5, 0.5, 100, radius, lamp)}, {}, camera, true, veils);
     ASSERT_EQ(small.size(), 1U);
     EXPECT_NEAR(small[0].share, 0.8 * 0.4 * size, thin);
-    EXPECT_NEAR(small[0].lamp_share, 0.8 * 0.4 * size, 1e-7); // radii are float
+    EXPECT_NEAR(small[0].lamp_share, 0.8 * 0.4 * size, 1e-7); // Radii are float32.
     const auto large = pieces_of({sphere_at(0.5, 0.5, 100, 2.0, lamp)}, {}, camera, true, veils);
     EXPECT_NEAR(share_of(large, 200, 99), 0.8 * 0.4, 0.01);
     EXPECT_TRUE(pieces_of({sphere_at(50.5, 0.5, 100, radius, lamp)}, {}, camera, true, veils).empty()) << "opaque";
@@ -200,7 +199,7 @@ TEST(SmallLamps, AreSeenFromWithinACapsule) {
     EXPECT_TRUE(pieces_of({sphere_at(0.5, 0.5, 100, radius, lamp), first}).empty());
 }
 
-// The variance of a lamp that a sample hits with probability p is E^2 p (1 - p).
+// If samples hit the lamp with probability p, the variance of its light E is E^2 p (1 - p).
 TEST(SmallLamps, AddWhatSamplesShouldHaveMet) {
     const std::vector<pt::LampPiece> pieces{{3, 4, 0.125, 0.25, glm::dvec3(8, 0, 16)},
                                             {5, 6, 0.25, 0.5, glm::dvec3(4)}};
@@ -226,11 +225,10 @@ TEST(SmallLamps, CountAgainstATargetIfTheirLackShows) {
     pt::LampPiece spread = bright;
     spread.is_spread = true;
     EXPECT_EQ(pt::samples_to_hit(spread, 0.01, false), 4000U);
-    const pt::LampPiece dim{0, 0, 1e-3, 2e-3, glm::dvec3(0, 0, 10)}; // .01^2 / (.01^2 + .01) < .01
+    const pt::LampPiece dim{0, 0, 1e-3, 2e-3, glm::dvec3(0, 0, 10)}; // The limit is .01: .01^2 / (.01^2 + .01) < .01.
     EXPECT_EQ(pt::samples_to_hit(dim, 0.01, true), 0U);
 }
 
-// The lamps expect 8 or 2 hits. The samples show a smaller or a larger error.
 TEST(SmallLamps, RaiseTheErrorAndLeaveItUncertainIfTheyAreHardlyMet) {
     for (const double meetings : {8.0, 2.0})
         for (const double shown : {0.1, 9.0}) {
@@ -248,7 +246,7 @@ TEST(SmallLamps, RaiseTheErrorAndLeaveItUncertainIfTheyAreHardlyMet) {
         }
 }
 
-// Simulates the variance of the number of points in a disc of a few cells, with one random point per cell.
+// Simulates the variance of the number of points in a disc of a few cells. Each cell has one random point.
 TEST(SmallLamps, PointsOneToACellMeetADiscAsOftenAsStated) {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> number(0.0, 1.0);
@@ -274,7 +272,6 @@ TEST(SmallLamps, PointsOneToACellMeetADiscAsOftenAsStated) {
     }
 }
 
-// The tests compare this share with the area of a spherical cap.
 double smallest_share(const std::vector<pt::Sphere> &spheres) {
     const pt::Material black{glm::vec3(0), glm::vec3(0), glm::vec3(0), 0.0F};
     const pt::Material bright{glm::vec3(0), glm::vec3(0), glm::vec3(0, 0, 5), 0.0F};

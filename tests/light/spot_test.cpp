@@ -1,4 +1,3 @@
-// For spots, the mean of 1 / density over directions into a region is the region's solid angle.
 #include "shaders/specialization.h"
 #include "spots.spv.h"
 #include "tests/kernel/probe.h"
@@ -20,7 +19,7 @@ struct DrawnSpot {
     glm::vec3 direction;
     float density;
     std::uint32_t surface;
-    float distance; // 0: blocked
+    float distance; // 0 if blocked
     std::array<std::uint32_t, 2> reserved;
 };
 
@@ -78,7 +77,8 @@ glm::dvec3 middle_of(const std::vector<DrawnSpot> &drawn, std::uint32_t surface)
     return glm::normalize(sum);
 }
 
-// Returns the normal deviate of the mean of 1 / (density density_error) over a cone within the surface.
+// Returns the mean of 1 / (density density_error) over a cone within the surface, as a normal deviate from the cone's
+// solid angle.
 double solid_angle_deviate(const std::vector<DrawnSpot> &drawn, std::uint32_t surface, double radius,
                            double density_error) {
     const glm::dvec3 middle = middle_of(drawn, surface);
@@ -92,7 +92,7 @@ double solid_angle_deviate(const std::vector<DrawnSpot> &drawn, std::uint32_t su
     }
     EXPECT_GT(within, drawn.size() / 50) << "too few to tell anything";
     const statistics::Moments moments = statistics::moments(inverses);
-    const double solid_angle = std::numbers::pi * radius * radius; // a cap's, by its chord (Archimedes)
+    const double solid_angle = std::numbers::pi * radius * radius; // solid angle of the cap from its chord (Archimedes)
     return (moments.mean - solid_angle) / std::sqrt(moments.variance / static_cast<double>(drawn.size()));
 }
 
@@ -100,7 +100,7 @@ struct SpotCase {
     const char *name;
     std::vector<SpotOf> spots;
     std::uint32_t surface;
-    double radius; // the cone's, as a chord; within the surface, without very rare directions
+    double radius; // chord of the cone; it lies within the surface and has no very rare directions
 };
 
 class SpotDirections : public testing::TestWithParam<SpotCase> {};
