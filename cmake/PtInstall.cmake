@@ -13,6 +13,19 @@ install(
   EXPORT pt-static-targets
   ARCHIVE COMPONENT pt_development
 )
+if(PT_BUILD_SCENE_FILE OR PT_BUILD_CLI)
+  install(
+    TARGETS pt_scene
+    EXPORT pt-scene-targets
+    LIBRARY COMPONENT pt_runtime NAMELINK_COMPONENT pt_development
+  )
+  install(
+    TARGETS pt_scene_static
+    EXPORT pt-scene-targets
+    ARCHIVE COMPONENT pt_development
+  )
+  set(pt_scene_export pt-scene-targets)
+endif()
 install(
   DIRECTORY include/pt
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
@@ -21,7 +34,7 @@ install(
   PATTERN "*.h"
 )
 
-foreach(export pt-targets pt-static-targets)
+foreach(export pt-targets pt-static-targets ${pt_scene_export})
   install(
     EXPORT ${export}
     NAMESPACE pt::
@@ -43,16 +56,20 @@ list(TRANSFORM pt_cxx_runtime PREPEND -l OUTPUT_VARIABLE pt_cxx_runtime_flags)
 list(JOIN pt_cxx_runtime_flags " " pt_cxx_runtime_flags)
 file(RELATIVE_PATH pt_prefix_from_pc ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 string(REGEX REPLACE "/$" "" pt_prefix_from_pc "${pt_prefix_from_pc}")
-set(pt_pc_name pt)
-set(pt_pc_libs "-L\${libdir} -lpt")
-set(pt_pc_requires "")
-configure_file(${PROJECT_SOURCE_DIR}/cmake/pt.pc.in pt.pc @ONLY)
-set(pt_pc_name pt-static)
-set(pt_pc_libs "\${libdir}/libpt.a ${pt_cxx_runtime_flags}")
-set(pt_pc_requires vulkan)
-configure_file(${PROJECT_SOURCE_DIR}/cmake/pt.pc.in pt-static.pc @ONLY)
-install(
-  FILES ${CMAKE_CURRENT_BINARY_DIR}/pt.pc ${CMAKE_CURRENT_BINARY_DIR}/pt-static.pc
-  DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
-  COMPONENT pt_development
-)
+function(pt_install_pc name libs requires)
+  set(pt_pc_name ${name})
+  set(pt_pc_libs ${libs})
+  set(pt_pc_requires ${requires})
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/pt.pc.in ${name}.pc @ONLY)
+  install(
+    FILES ${CMAKE_CURRENT_BINARY_DIR}/${name}.pc
+    DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
+    COMPONENT pt_development
+  )
+endfunction()
+pt_install_pc(pt "-L\${libdir} -lpt" "")
+pt_install_pc(pt-static "\${libdir}/libpt.a ${pt_cxx_runtime_flags}" vulkan)
+if(pt_scene_export)
+  pt_install_pc(pt-scene "-L\${libdir} -lpt-scene" "")
+  pt_install_pc(pt-scene-static "\${libdir}/libpt-scene.a ${pt_cxx_runtime_flags}" "")
+endif()

@@ -63,7 +63,7 @@ exact sums of their samples.
 ")
 set(same_version "(= ${PROJECT_VERSION})")
 
-set(CPACK_DEBIAN_PT_RUNTIME_DESCRIPTION "${pt_story}\nThis package has the shared library.")
+set(CPACK_DEBIAN_PT_RUNTIME_DESCRIPTION "${pt_story}\nThis package has the shared libraries.")
 set(CPACK_DEBIAN_PT_RUNTIME_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_PT_RUNTIME_PACKAGE_RECOMMENDS "mesa-vulkan-drivers | vulkan-icd")
 file(WRITE ${PROJECT_BINARY_DIR}/debian-control/triggers "activate-noawait ldconfig\n")
@@ -72,7 +72,7 @@ set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 
 set(CPACK_DEBIAN_PT_DEVELOPMENT_DESCRIPTION
     "${pt_story}
-This package has the headers, the static library, and how to find the
+This package has the headers, the static libraries, and how to find the
 libraries by CMake and pkg-config."
 )
 set(CPACK_DEBIAN_PT_DEVELOPMENT_PACKAGE_SECTION libdevel)

@@ -29,6 +29,7 @@ ENUMERATIONS = (
     ("PT_LIGHT_", "Light", "IntEnum", "The result of a comparison of two images."),
     ("PT_UNCERTAIN_", "Uncertain", "IntFlag", "Reasons why a stated error may be far off. Its bounds are then wider by "
                                               "a factor of two."),
+    ("PT_SCENE_FILE_", "SceneFileFlag", "IntFlag", "Parts of a scene file that are read."),
     ("PT_", "Result", "IntEnum", "The result of a call. Errors are raised (see Error), so calls return one of the first "
                                  "four."),
 )

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace pt {
 namespace {
@@ -110,6 +111,16 @@ std::vector<SceneOverride> overrides_of_frame(const SceneFile &scene, std::uint3
         }
     }
     return overrides;
+}
+
+SceneFile scene_in_frame(const SceneFile &scene, std::uint32_t frame) {
+    if (scene.animation.empty())
+        throw Error(PT_ERROR_INVALID_SCENE, scene.path + ": has no animation, and so no frames");
+    std::vector<SceneOverride> overrides = overrides_of_frame(scene, frame);
+    overrides.insert(overrides.end(), scene.overrides.begin(), scene.overrides.end());
+    SceneFile in_frame = scene_of_text(scene.text, scene.path, std::move(overrides));
+    in_frame.render.seed += frame;
+    return in_frame;
 }
 
 } // namespace pt

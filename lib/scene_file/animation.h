@@ -35,4 +35,8 @@ AnimatedValue read_animated_value(const JsonPlace &place, const nlohmann::json &
 // else stands still as in the middle of the shutter's time.
 std::vector<SceneOverride> overrides_of_frame(const SceneFile &scene, std::uint32_t frame);
 
+// The file with the values of a frame, before the file's own overrides. Adds the frame's number to the seed: equal
+// noise in all frames would look like a screen before them. Throws PT_ERROR_INVALID_SCENE, also without an animation.
+SceneFile scene_in_frame(const SceneFile &scene, std::uint32_t frame);
+
 } // namespace pt

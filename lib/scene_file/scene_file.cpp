@@ -7,6 +7,7 @@
 #include "lib/scene_file/text.h"
 
 #include <algorithm>
+#include <charconv>
 #include <iterator>
 #include <span>
 #include <string>
@@ -64,6 +65,8 @@ JsonPath path_in_arrays(const SceneFile &scene, const BrokenRule &rule) {
     const auto array = static_cast<std::size_t>(rule.index);
     const auto element = static_cast<std::size_t>(std::max(rule.component, 0));
     const bool is_single = array < of_single;
+    if (array >= of_single + scene.sphere_columns.size())
+        return {};
     const SphereColumns *const many = is_single ? nullptr : &scene.sphere_columns[array - of_single];
     const std::string_view section = many ? many->section : array < of_spheres ? "spheres" : "capsules";
     const std::size_t item = many ? many->item : scene.item_of(section, element);
@@ -76,8 +79,12 @@ JsonPath path_in_arrays(const SceneFile &scene, const BrokenRule &rule) {
 BrokenRule with_names(const SceneFile &scene, const BrokenRule &rule) {
     BrokenRule named = rule;
     named.value = platform::printable(rule.value);
-    if (rule.subject == "sphere_arrays" && rule.member == "material")
-        named.value = platform::printable(concat('"', scene.material_names[std::stoul(rule.value)], '"'));
+    std::size_t material = 0;
+    const char *const end = rule.value.data() + rule.value.size();
+    const auto read = std::from_chars(rule.value.data(), end, material);
+    const bool is_material = read.ec == std::errc{} && read.ptr == end && material < scene.material_names.size();
+    if (rule.subject == "sphere_arrays" && rule.member == "material" && is_material)
+        named.value = platform::printable(concat('"', scene.material_names[material], '"'));
     return named;
 }
 
@@ -112,11 +119,6 @@ const SceneOverride *find_override(const SceneFile &scene, const JsonPath &path)
     const auto found = std::find_if(scene.overrides.rbegin(), scene.overrides.rend(),
                                     [&](const SceneOverride &each) { return is_within(path, each.path); });
     return found == scene.overrides.rend() ? nullptr : &*found;
-}
-
-std::string place_text(const SceneFile &scene, const JsonPath &path) {
-    const auto line = path.empty() ? std::nullopt : line_of(scene.text, path);
-    return line ? concat(scene.path, ":", *line) : scene.path;
 }
 
 } // namespace
@@ -166,13 +168,14 @@ bool SceneFile::gives(const BrokenRule &rule) const {
     return find_override(*this, path_there) != nullptr || (!path_there.empty() && gives(path_there));
 }
 
-std::string SceneFile::explain(const BrokenRule &rule) const {
+RuleSource SceneFile::source_of(const BrokenRule &rule) const {
     const JsonPath path_there = path_of(*this, rule);
     const BrokenRule named = with_names(*this, rule);
     if (const SceneOverride *cause = find_override(*this, path_there))
-        return named.text(cause->name_of(path_there));
-    return named.text(place_text(*this, path_there) + ": " +
-                      (path_there.empty() ? rule.field() : path_text(path_there)));
+        return {named.text(cause->name_of(path_there)), 0, cause};
+    const std::size_t line = path_there.empty() ? 0 : line_of(text, path_there).value_or(0);
+    const std::string place = line == 0 ? path : concat(path, ":", line);
+    return {named.text(place + ": " + (path_there.empty() ? rule.field() : path_text(path_there))), line};
 }
 
 pt_result SceneFile::blame(const BrokenRule &rule) const {

@@ -49,6 +49,13 @@ struct Capsule {
     Look look;
 };
 
+// The source of a value that libpt refuses.
+struct RuleSource {
+    std::string message;                  // "scene.json:7: materials.gold.glossiness = -1: must be >= 0"
+    std::size_t line = 0;                 // 0: the value is not in the file
+    const SceneOverride *cause = nullptr; // nullptr: none
+};
+
 struct SceneFile {
     std::string path;
     std::string text; // gives messages their line numbers
@@ -82,9 +89,8 @@ struct SceneFile {
     // Whether the file or an override gives the field; else it has its default, or is no field of scene files.
     bool gives(const BrokenRule &rule) const;
 
-    // A message with the field's source: an override, or file and line, as in "scene.json:7: materials.gold.glossiness
-    // = -1: must be >= 0".
-    std::string explain(const BrokenRule &rule) const;
+    RuleSource source_of(const BrokenRule &rule) const;
+    std::string explain(const BrokenRule &rule) const { return source_of(rule).message; }
 
     // PT_ERROR_INVALID_SCENE, or the override's.
     pt_result blame(const BrokenRule &rule) const;

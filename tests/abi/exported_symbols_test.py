@@ -8,6 +8,7 @@ import sys
 import tempfile
 
 SONAME = "libpt.so.0.4"
+SCENE_SONAME, SCENE_HEADER = "libpt-scene.so.0.4", "scene_file.h"
 
 
 def output(*command):
@@ -21,7 +22,7 @@ def symbols_of(path, *options):
 
 
 def declared_in(headers):
-    return {name for header in headers.glob("*.h")
+    return {name for header in headers
             for name in re.findall(r"^PT_API\b[^;(]*?\b(pt_\w+)\(", header.read_text(), re.MULTILINE)}
 
 
@@ -33,12 +34,12 @@ def differences(what, found, listed):
     return [f"{what}: {name} is {'not in the list' if name in found else 'missing'}" for name in sorted(found ^ listed)]
 
 
-def complaints(library, archive, headers, listed):
+def complaints(library, archive, headers, listed, soname=SONAME):
     found = differences("shared library", symbols_of(library, "--dynamic"), listed)
     found += differences("static library", symbols_of(archive, "--extern-only"), listed)
     found += differences("headers", declared_in(headers), listed)
-    if soname_of(library) != SONAME:
-        found.append(f"the soname is {soname_of(library)}, not {SONAME}")
+    if soname_of(library) != soname:
+        found.append(f"the soname is {soname_of(library)}, not {soname}")
     return found
 
 
@@ -52,7 +53,7 @@ def build(folder, compiler, source, soname):
     output(compiler, "-shared", f"-Wl,-soname,{soname}", folder / "f.o", "-o", folder / "f.so")
     (folder / "f.a").unlink(missing_ok=True)
     output("ar", "rc", folder / "f.a", folder / "f.o")
-    return folder / "f.so", folder / "f.a", folder
+    return folder / "f.so", folder / "f.a", list(folder.glob("*.h"))
 
 
 def check_the_check(compiler):
@@ -73,9 +74,12 @@ def check_the_check(compiler):
 
 
 def main():
-    library, archive, headers, listed, compiler = sys.argv[1:]
+    library, archive, folder, listed, compiler = sys.argv[1:]
     check_the_check(compiler)
-    found = complaints(library, archive, pathlib.Path(headers), set(pathlib.Path(listed).read_text().split()))
+    is_scene = "pt-scene" in library
+    headers = [path for path in pathlib.Path(folder).glob("*.h") if (path.name == SCENE_HEADER) == is_scene]
+    found = complaints(library, archive, headers, set(pathlib.Path(listed).read_text().split()),
+                       SCENE_SONAME if is_scene else SONAME)
     if found:
         sys.exit("\n".join(found))
 

@@ -140,7 +140,15 @@ class Steps:
         said = run(folder / "ball", LD_LIBRARY_PATH=str(self.library))
         require(said == "radiance in the middle: 1\n", f"the README's program says {said}")
 
-        for package in "pt", "pt-static":
+        room = SOURCE / "cli/scenes/first.json"
+        for name, packages in (("scene", ("pt", "pt-scene")), ("scene_static", ("pt-static", "pt-scene-static"))):
+            flags = [flag for package in packages for flag in self.pkg_config("--cflags", "--libs", package=package)]
+            run(*strict, EXAMPLES / "scene_file.c", *flags, "-o", folder / name)
+            run(folder / name, room, "film.width=8", "film.height=4", "render.spp=1", cwd=folder,
+                LD_LIBRARY_PATH=str(self.library))
+            require((folder / "scene_file.pfm").stat().st_size == len("PF\n8 4\n-1.0\n") + 8 * 4 * 12, f"{name}: another size")
+            (folder / "scene_file.pfm").unlink()
+        for package in "pt", "pt-static", "pt-scene", "pt-scene-static":
             require(self.pkg_config("--modversion", package=package) == [self.options.version],
                     f"{package}.pc has another version")
         if (self.library / "pt" / "libpt-glsl.so").exists():
@@ -162,6 +170,10 @@ class Steps:
         run(folder / "package/own_names_shared")
         run(folder / "package/own_names_static")
         check_enclosure(folder / "package_c/enclosure_static")
+        for name, shared in (("scene", ["libpt-scene.so.0.4"]), ("scene_static", [])):
+            run(folder / "package_c" / f"uses_{name}")
+            names = [each for each in needed(folder / "package_c" / f"uses_{name}") if each.startswith(("libpt", "libvulkan"))]
+            require(names == shared, f"uses_{name} needs {names}")
 
     def configure_subproject(self, build, *settings):
         run(self.options.cmake, "-S", HERE / "subproject", "-B", build, "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON",

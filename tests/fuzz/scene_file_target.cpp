@@ -1,9 +1,10 @@
 #include "tests/fuzz/examine.h"
 #include "tests/fuzz/mutation.h"
 
-#include "lib/scene_file/scene_file.h"
+#include <pt/scene_file.h>
 
 #include <algorithm>
+#include <memory>
 #include <random>
 #include <string>
 
@@ -11,17 +12,41 @@ namespace {
 
 constexpr const char *path = "scene.json";
 
-void examine_scene(const pt::SceneFile &scene, std::span<const std::uint8_t> bytes) {
+template <typename Struct>
+Struct sized() {
+    Struct value{};
+    value.struct_size = sizeof value;
+    return value;
+}
+
+struct Close {
+    void operator()(pt_scene_file *file) const { pt_close_scene_file(file); }
+};
+using File = std::unique_ptr<pt_scene_file, Close>;
+
+void examine_scene(const pt_scene_file *file, std::span<const std::uint8_t> bytes) {
+    auto scene = sized<pt_scene>();
+    auto film = sized<pt_scene_film>();
     fuzz::Input input;
-    input.materials = scene.materials;
-    input.spheres = scene.spheres;
-    input.planes = scene.planes;
-    input.camera = scene.camera;
-    input.render = scene.render;
-    input.render.width = std::min(scene.render.width, 8U);
-    input.render.height = std::min(scene.render.height, 4U);
-    input.sample_count = std::min(scene.sample_count.value_or(4), 4U);
+    input.camera = sized<pt_camera>();
+    input.render = sized<pt_render>();
+    fuzz::require(pt_get_scene_file(file, &scene, &input.camera, &input.render, &film) == PT_OK, "a file gives all");
+    input.materials.assign(scene.materials, scene.materials + scene.material_count);
+    input.spheres.assign(scene.spheres, scene.spheres + scene.sphere_count);
+    input.planes.assign(scene.planes, scene.planes + scene.plane_count);
+    input.render.width = std::min(input.render.width, 8U);
+    input.render.height = std::min(input.render.height, 4U);
+    input.sample_count = std::min(film.sample_count == 0 ? 4 : film.sample_count, 4U);
     fuzz::examine_neighbourhood(input, bytes);
+}
+
+void examine_rule(pt_scene_file *file, const std::string &text) {
+    auto rule = sized<pt_broken_rule>();
+    rule.index = rule.component = static_cast<std::int32_t>(text.size());
+    rule.subject = rule.member = rule.with = rule.value = rule.rule = text.c_str();
+    auto source = sized<pt_rule_source>();
+    fuzz::require(pt_find_rule_source(file, &rule, &source) == PT_OK, "every rule has a message");
+    fuzz::require(std::string_view(source.message).starts_with(path), "messages are led back to the file");
 }
 
 bool is_number_character(std::uint8_t character) {
@@ -62,15 +87,20 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t *data, std::size_t s
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
     const std::string text(data, data + size);
-    try {
-        const pt::SceneFile scene = pt::scene_of_text(text, path);
-        const auto index = static_cast<std::int32_t>(size);
-        fuzz::require(scene.explain({text, index, text, index, text, text, text}).starts_with(path),
-                      "messages are led back to the file");
-        examine_scene(scene, {data, size});
-    } catch (const pt::Error &error) {
-        fuzz::require(error.code() == PT_ERROR_INVALID_SCENE, "what is refused is the scene file's fault");
-        fuzz::require(std::string_view(error.what()).starts_with(path), "messages name the file");
+    auto info = sized<pt_scene_file_info>();
+    info.path = path;
+    info.text = text.c_str();
+    info.text_bytes = text.size();
+    pt_scene_file *opened = nullptr;
+    const pt_result result = pt_open_scene_file(&info, &opened);
+    const File file(opened);
+    if (result == PT_OK) {
+        examine_rule(file.get(), text);
+        examine_scene(file.get(), {data, size});
+        return 0;
     }
+    fuzz::require(result == PT_ERROR_INVALID_SCENE || result == PT_ERROR_FILE, "what is refused is the files' fault");
+    fuzz::require(opened == nullptr && std::string_view(pt_last_scene_error()).starts_with(path),
+                  "messages name the file");
     return 0;
 }

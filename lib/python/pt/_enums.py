@@ -138,6 +138,12 @@ class Uncertain(enum.IntFlag):
     UNMET = 8  # samples may have missed lamps
 
 
+class SceneFileFlag(enum.IntFlag):
+    """Parts of a scene file that are read."""
+
+    FRAME = 1  # the scene of the frame pt_scene_file_info.frame
+
+
 class Result(enum.IntEnum):
     """The result of a call. Errors are raised (see Error), so calls return one of the first four."""
 

@@ -142,6 +142,25 @@ class pt_sample_range(ctypes.Structure):
     _fields_ = [("first", c_uint64), ("end", c_uint64)]
 
 
+class pt_scene_override(ctypes.Structure):
+    _fields_ = [("setting", c_char_p), ("name", c_char_p)]
+
+
+class pt_scene_file_info(Sized):
+    _fields_ = [("struct_size", c_uint32), ("override_count", c_uint32), ("path", c_char_p), ("text", c_char_p),
+                ("text_bytes", c_uint64), ("overrides", POINTER(pt_scene_override)), ("flags", c_uint32),
+                ("frame", c_uint32)]
+
+
+class pt_scene_film(Sized):
+    _fields_ = [("struct_size", c_uint32), ("sample_count", c_uint32), ("curve", c_uint32),
+                ("automatic_exposure", c_uint32), ("exposure", c_double), ("gamma", c_double)]
+
+
+class pt_rule_source(Sized):
+    _fields_ = [("struct_size", c_uint32), ("line", c_uint32), ("override_index", c_int64), ("message", c_char_p)]
+
+
 class pt_stats(Sized):
     _fields_ = [("struct_size", c_uint32), ("sample_count", c_uint32), ("rejected_samples", c_uint64),
                 ("device_bytes", c_uint64), ("submit_count", c_uint64), ("device_seconds", c_double),

@@ -1,0 +1,107 @@
+/** @file
+ * pt: scene files (JSON, with NPY columns) as the structs of pt/pt.h. cli/README.md describes the files.
+ *
+ * These functions are a library of their own, libpt-scene (pkg-config pt-scene, CMake pt::scene and pt::scene_static).
+ * It needs neither libpt nor Vulkan. The rules of pt/pt.h about structs, ownership, results and floating point hold.
+ *
+ * Threads: different files are independent; one file is used by one thread at a time. */
+#ifndef PT_SCENE_FILE_H
+#define PT_SCENE_FILE_H
+
+#include <pt/errors.h>
+#include <pt/pt.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** A scene file in memory. It owns all arrays of its scene. */
+typedef struct pt_scene_file pt_scene_file;
+
+/** A value that replaces the file's. */
+typedef struct pt_scene_override {
+    /** Path and value: "camera.vertical_fov=30", "spheres[0].center=[0, 1, 0]", "film.tonemap=agx". The value is JSON,
+     * or else a text. Missing members are added; elements of arrays must exist. */
+    const char *setting;
+    const char *name; /**< the value's name in messages, such as "--fov"; NULL: setting */
+} pt_scene_override;
+
+/** Values of pt_scene_file_info.flags. */
+enum {
+    PT_SCENE_FILE_FRAME = 1 /**< the scene of the frame pt_scene_file_info.frame */
+};
+
+/** What is read. */
+typedef struct pt_scene_file_info {
+    uint32_t struct_size;    /**< sizeof(pt_scene_file_info); must be set by the caller */
+    uint32_t override_count; /**< number of overrides */
+    const char *path;        /**< the file. Files of columns are relative to its folder. Must not be NULL */
+    const char *text;        /**< the file's contents (UTF-8); path is then only its name. NULL: the file is read */
+    uint64_t text_bytes;     /**< size of text */
+    const pt_scene_override *overrides; /**< later ones replace earlier ones; may be NULL without any */
+    uint32_t flags;                     /**< PT_SCENE_FILE_*; all other bits must be 0 */
+    /** With PT_SCENE_FILE_FRAME: the number of a frame of the file's animation, which is also added to pt_render.seed.
+     * It must have an animation (PT_ERROR_INVALID_SCENE). */
+    uint32_t frame;
+} pt_scene_file_info;
+
+/** How many samples the file wants, and how the image is shown. */
+typedef struct pt_scene_film {
+    uint32_t struct_size;        /**< sizeof(pt_scene_film); must be set by the caller */
+    uint32_t sample_count;       /**< samples of a pixel; 0: the file has no number */
+    uint32_t curve;              /**< from radiance to light: 0 none, 1 Reinhard, 2 ACES, 3 AgX, 4 neutral */
+    uint32_t automatic_exposure; /**< not 0: exposure is 0 and does not count */
+    double exposure;             /**< stops */
+    double gamma;                /**< the signal is light^(1 / gamma); 0: the sRGB curve */
+} pt_scene_film;
+
+/** The source of a value that libpt refuses. */
+typedef struct pt_rule_source {
+    uint32_t struct_size;   /**< sizeof(pt_rule_source); must be set by the caller */
+    uint32_t line;          /**< the value's line, from 1; 0: it is not in the file */
+    int64_t override_index; /**< the override that has the value; -1: none */
+    /** "scene.json:7: materials.gold.glossiness = -1: must be >= 0". Valid until the next call with the file. */
+    const char *message;
+} pt_rule_source;
+
+/** Reads a scene file and its columns. libpt checks the ranges of most values later.
+ *
+ * On success the caller owns *file and frees it by pt_close_scene_file; on failure *file is NULL.
+ *
+ * Any thread. PT_ERROR_INVALID_SCENE: a file is wrong; the message has file, line, value and rule.
+ * PT_ERROR_INVALID_ARGUMENT: an override or a field of info is wrong. PT_ERROR_FILE: a file cannot be read. */
+PT_API pt_result pt_open_scene_file(const pt_scene_file_info *info, pt_scene_file **file);
+
+/** Frees the file and the arrays of its scene. NULL is allowed. One thread at a time per file. */
+PT_API void pt_close_scene_file(pt_scene_file *file);
+
+/** Fills the structs that are not NULL with the file's contents. Each struct_size must be set. The file owns the
+ * arrays of the scene. They are valid until pt_close_scene_file. Fields that files do not have become 0.
+ *
+ * One thread at a time per file. */
+PT_API pt_result pt_get_scene_file(const pt_scene_file *file, pt_scene *scene, pt_camera *camera, pt_render *render,
+                                   pt_scene_film *film);
+
+/** Returns the path of a file with columns; NULL if there are not more than `index` such files. The scene file owns the
+ * string. One thread at a time per file. */
+PT_API const char *pt_get_column_path(const pt_scene_file *file, uint32_t index);
+
+/** Finds the source of a rule that pt_set_scene, pt_set_camera, pt_set_render or pt_accumulate found broken
+ * (pt/errors.h). source->struct_size must be set. Parses the file once more.
+ *
+ * One thread at a time per file. */
+PT_API pt_result pt_find_rule_source(pt_scene_file *file, const pt_broken_rule *rule, pt_rule_source *source);
+
+/** Returns the JSON Schema (draft 7) of scene files, for editors. A static string; NULL without memory for it. Any
+ * thread. */
+PT_API const char *pt_get_scene_schema(void);
+
+/** Returns the message of this thread's last failed call of this header ("" if none), valid until the thread's next
+ * failure. UTF-8, never NULL. Never fails. */
+PT_API const char *pt_last_scene_error(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
