@@ -16,12 +16,9 @@ namespace {
 
 int render_once(const RenderOptions &options, ValidationLog &log) {
     RenderTimes times;
-    if (!options.parts)
-        check_names(options);
+    check_names(options);
     RenderTask task(options, read_scene_file(options.scene, options.overrides));
     task.load();
-    if (options.parts)
-        return render_parts(task, log);
     check_outputs(task);
     catch_signals();
 
@@ -79,20 +76,11 @@ public:
         return static_cast<int>(is_target_missed_ ? ExitCode::target_missed : ExitCode::done);
     }
 
-    int parts() const {
-        const FrameRange frames = options_.frames.value();
-        refuse_if(frames.first != frames.last, "--parts: needs --frames of one frame");
-        return render_parts(task_of(options_, frames.first), log_);
-    }
-
 private:
     // Each frame has its own seed. Equal noise in all frames would look like a pattern on the screen.
     RenderTask task_of(const RenderOptions &options, std::uint32_t frame) const {
-        std::vector<SceneOverride> overrides = pt::overrides_of_frame(scene_, frame);
-        overrides.insert(overrides.end(), options.overrides.begin(), options.overrides.end());
-        RenderTask task(options, parse_scene(scene_.text, scene_.path, std::move(overrides)));
+        RenderTask task(options, with_exit_code([&] { return pt::scene_in_frame(scene_, frame); }));
         task.load();
-        task.render.seed += frame;
         return task;
     }
 
@@ -117,8 +105,7 @@ private:
 };
 
 int render_frames(const RenderOptions &options, ValidationLog &log) {
-    FramesRender frames(options, log);
-    return options.parts ? frames.parts() : frames.run();
+    return FramesRender(options, log).run();
 }
 
 } // namespace

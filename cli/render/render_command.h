@@ -45,18 +45,6 @@ struct ValidationLog {
 
 pt_create_info render_create_info(const RenderOptions &options, ValidationLog &log);
 
-// Renders parts for another program that distributes a picture among machines, such as pt-farm.
-//
-// Writes a line of JSON: the numbers that decide the parts (width, height, first_sample, samples, target_error,
-// sampling as PT_SAMPLING_*) and the display (exposure or "auto"; tonemap; gamma or null). Then answers requests until
-// standard input ends. The first request starts the device.
-//
-// A request has 32-bit words: first sample, end, number of tiles, and their indices as in
-// pt_accumulate_info.tile_samples. The answer is a line with the kind of device (PT_DEVICE_*) and the size of the film,
-// followed by the film. Three words of 0 request the scene in the form of write_scene. An invalid request ends the
-// program with ExitCode::usage.
-int render_parts(const RenderTask &task, ValidationLog &log);
-
 // Renders again on one context whenever a source changes, until a signal. Returns 0 for a signal during a wait. Throws
 // Failure if no edit of a source could help.
 int render_watched(const RenderOptions &options, ValidationLog &log);

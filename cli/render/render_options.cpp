@@ -97,19 +97,6 @@ void add_lasting_options(CLI::App &command, RenderOptions &options) {
                               "Index of the first sample, for parts of one picture (default: 0)");
 }
 
-// The other program writes the outputs, so output options are refused.
-void add_parts_option(CLI::App &command, RenderOptions &options) {
-    command.option_defaults()->group("Checkpoints and parts");
-    CLI::Option *parts = command.add_flag("--parts", options.parts,
-                                          "Render the parts that standard input names, and write their films to "
-                                          "standard output, for programs such as pt-farm");
-    for (const char *other :
-         {"--output", "--format", "--layers", "--alpha", "--denoise", "--film", "--stats", "--crop", "--time",
-          "--checkpoint", "--resume", "--preview-every", "--piece-rows", "--watch", "--skip-existing"}) {
-        parts->excludes(command.get_option(other));
-    }
-}
-
 void add_device_options(CLI::App &command, RenderOptions &options) {
     command.option_defaults()->group("Device");
     add_device(command, options.device);
@@ -235,7 +222,6 @@ void add_render_command(CLI::App &program, Run &chosen) {
     add_animation_options(command, options);
     add_device_options(command, options);
     add_live_options(command, options);
-    add_parts_option(command, options);
     command.option_defaults()->group("Messages");
     add_quiet(command, options.output.quiet);
 }

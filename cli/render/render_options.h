@@ -84,7 +84,6 @@ struct RenderOptions {
     std::uint32_t sampling = PT_SAMPLING_BEST;
     std::uint32_t first_sample = 0;
 
-    bool parts = false;
     std::string checkpoint; // empty: no checkpoint
     bool resume = false;
     std::optional<double> checkpoint_seconds; // default: 30

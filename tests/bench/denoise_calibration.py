@@ -25,7 +25,6 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / part) for part in ("lib/python", "tests/support", "tests/bench")]
 import pt  # noqa: E402
 from calibration_scenes import scenes  # noqa: E402
-from pt._program import Program  # noqa: E402
 from random_scenes import hundred  # noqa: E402
 from scene_file import FOLDER  # noqa: E402
 
@@ -49,19 +48,15 @@ class Case:
 
 def scene_files(options):
     for path in [*(sorted(FOLDER.glob("*.json")) if options.own else []), *options.files]:
-        yield path.stem, str(path.resolve()), {}
+        yield path.stem, path, None
     made = [*(scenes().items() if options.own else []),
             *(pair for seed in options.hundred for pair in hundred(seed))]
     for name, scene in made:
-        yield name, "scene.json", {"scene.json": json.dumps(scene).encode()}
+        yield name, "scene.json", json.dumps(scene)
 
 
-def rendered(context, path, files, options):
-    program = Program([path], files)
-    try:
-        read = program.scene()
-    finally:
-        program.close()
+def rendered(context, path, text, options):
+    read = pt.load(path, text=text)
     context.set_scene(read.scene)
     context.set_camera(read.camera)
     width, height = map(int, options.size.split("x"))
@@ -140,13 +135,13 @@ def main():
     parser.add_argument("--worst", type=int, default=0, help="images to name, by relative and by absolute error")
     options = parser.parse_args()
     context, cases = None, []
-    for name, path, files in scene_files(options):
+    for name, path, text in scene_files(options):
         kept = options.images and options.images / f"{name}.npz"
         if kept and kept.exists():
             arrays = dict(np.load(kept))
         else:
             context = context or pt.Context()
-            arrays = rendered(context, path, files, options)
+            arrays = rendered(context, path, text, options)
             if kept:
                 kept.parent.mkdir(parents=True, exist_ok=True)
                 np.savez_compressed(kept, **arrays)

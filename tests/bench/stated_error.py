@@ -26,7 +26,6 @@ sys.path[:0] = [str(ROOT / folder) for folder in ("lib/python", "tests/support",
 import pt  # noqa: E402
 import random_scenes  # noqa: E402
 from calibration_scenes import scenes as calibration_scenes  # noqa: E402
-from pt._program import Program  # noqa: E402
 from relative_error import relative_square  # noqa: E402
 from scene_file import FOLDER, read_scene  # noqa: E402
 
@@ -82,13 +81,7 @@ def sets_of(name):
 
 
 def read(scene):
-    path = os.fspath(scene.resolve()) if isinstance(scene, pathlib.Path) else "scene.json"
-    files = {} if isinstance(scene, pathlib.Path) else {path: json.dumps(scene).encode()}
-    program = Program([path], files)
-    try:
-        return program.scene()
-    finally:
-        program.close()
+    return pt.load(scene) if isinstance(scene, pathlib.Path) else pt.load("scene.json", text=json.dumps(scene))
 
 
 def short(values):

@@ -33,7 +33,6 @@ class Denoise(DenoiseTest):
             self.assertIn("--denoise", self.errors)
         self.render("-o", "a.png", DENOISE, "--error", "1%", "--piece-rows", "7", code=2,
                     error="--denoise with --error or --time: needs the whole image on the device, which --piece-rows 7")
-        self.expect(2, "render", COURSEWORK, DENOISE, "--parts", error="--denoise excludes --parts")
         self.assertEqual(self.files(), [])
 
     def test_a_signal_leaves_the_last_round(self):

@@ -11,6 +11,7 @@ import sys
 import tempfile
 import unittest
 
+import numpy as np
 import pt
 
 try:
@@ -20,7 +21,6 @@ except ImportError:
     sys.exit(77)
 from pt import farm
 from pt.farm import _command
-from pt.farm._job import read_job
 
 if __name__ == "__main__":  # worker processes import this file too
     os.environ["PT_PROGRAM"] = os.path.abspath(sys.argv.pop(1))
@@ -68,7 +68,9 @@ class Command(unittest.TestCase):
                 (["-o", "none/x.png"], 6, r"none/x\.png: its folder none"),
                 ([], 2, "-o or --film is missing"),
                 (["-o", "a.png", "-o", "./a.png"], 2, "named twice"),
-                (["-o", "a.png", "--crop", "0,0,8,8"], 2, "--crop excludes --parts"),
+                (["-o", "a.png", "--crop", "0,0,8,8"], 2, "unrecognized arguments: --crop 0,0,8,8"),
+                (["-o", "a.png", "--size", "9"], 2, "argument --size: must be two whole numbers like 1920x1080, is '9'"),
+                (["-o", "a.png", "--error", "0"], 2, "argument --error: must be a number above 0 like 0.005 or 0.5%, is '0'"),
                 (["-o", "a.png", "--set", "spheres[0].center=none.npy"], 6, "cannot read none.npy"),
                 (["-o", "a.png", "--frames", "2-1"], 2, "--frames 2-1: must be two whole numbers"),
                 (["-o", "a.png", "--checkpoint-every", "0"], 2, "number of 0.01 or more, is '0'"),
@@ -97,38 +99,26 @@ class Command(unittest.TestCase):
         self.pt("merge", "a.ptfilm", "-o", "c.exr", "--layers", "standard-error")
         self.same("a.exr", "c.exr")
 
-    def test_workers_without_the_program(self):
-        programs = {"with": PT, "without": "/none/pt"}
-        nannies = {name: {"cls": distributed.Nanny, "options": {"nthreads": 1, "env": {"PT_PROGRAM": path}}}
-                   for name, path in programs.items()}
-        scheduler = {"cls": distributed.Scheduler, "options": {"dashboard": False, "host": "127.0.0.1"}}
-        job, facts = _command.described(read_job("scene.json", ["--spp", "20"], None), None)
-        self.assertEqual(facts["samples"], 20)
-        with distributed.SpecCluster(nannies, scheduler, silence_logs=50) as cluster, \
-                distributed.Client(cluster) as client:
-            client.wait_for_workers(2)
-            found = farm.render(client, job, 4096)
-        told, = found.progress.messages
-        self.assertRegex(told, "worker tcp.* is refused: .*: NoDeviceError: the program pt is not found .*'/none/pt'")
-        self.assertTrue((found.film.readback(pt.Quantity.SAMPLE_COUNT) == 4096).all())
+    def test_a_scene_from_standard_input(self):
+        os.makedirs("in")
+        words = ["--size", "16x8", "--spp", "2"]
+        with open("scene.json") as file:
+            done = subprocess.run([sys.executable, "-m", "pt.farm._command", "render", "-", "-o", "a.exr", *words, "-q",
+                                   "--local-workers", "1"], stdin=file, stderr=subprocess.PIPE, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.pt("render", "scene.json", "-o", "b.exr", *words)
+        self.same("a.exr", "b.exr")
 
-    def test_files_of_a_scene_go_with_it(self):
-        os.makedirs("in/sub")
-        for name in ("in/a.npy", "in/sub/b.npy", "c.npy", "in/d.npy"):
-            with open(name, "w") as file:
-                file.write(name)
-        scene = b'{"x": "a.npy", // "c.npy\n"y": ["sub/b.npy", "../c.npy", "none.npy", "q\\"", "sub"], "a.npy": 1}'
-        with open("in/s.json", "wb") as file:
-            file.write(scene)
-        job = read_job("in/s.json", ["--set", "z=d.npy", "--set=y=../c.npy", "--spp", "4", "-q"], "cpu")
-        outside, = (name for name in job.files if name.startswith("outside-"))
-        self.assertEqual(job.arguments, ("s.json", "--set", "z=d.npy", f"--set=y={outside}", "--spp", "4", "-q"))
-        self.assertEqual({**job.files, "s.json": b""}, {"a.npy": b"in/a.npy", "sub/b.npy": b"in/sub/b.npy",
-                                                        outside: b"c.npy", "d.npy": b"in/d.npy", "s.json": b""})
-        self.assertEqual(job.files["s.json"], scene.replace(b"../c.npy", outside.encode()))
+    def test_columns_go_to_the_workers(self):
+        np.save("c.npy", np.array([[0, 1, 0], [1, 1, 0]], np.float32))
+        words = ["--set", 'spheres[1].center="c.npy"', "--size", "16x8", "--spp", "2"]
+        self.farm("-o", "a.exr", *words, "--local-workers", "1", "-q")
+        self.pt("render", "scene.json", "-o", "b.exr", *words)
+        self.same("a.exr", "b.exr")
+
     def test_what_workers_refuse(self):
         said = self.farm("-o", "a.exr", "--set", "spheres[1].radius=-1", "--local-workers", "1", "-q", code=2)
-        self.assertRegex(said, r"InvalidArgumentError: --set spheres\[1\].radius=-1: spheres.* must be > 0")
+        self.assertRegex(said, r"pt-farm: spheres\[1\].radius=-1: spheres\[1\].radius = -1: must be > 0")
 
     def test_target_errors(self):
         said = self.farm("-o", "a.exr", "--spp", "20", "--error", "0.01%", "--local-workers", "1", code=7)

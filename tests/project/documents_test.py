@@ -13,7 +13,7 @@ CODE = re.compile(r"\.(h|c|cpp|glsl|comp|py|json|csv|cmake|sh)$|^CMakeLists\.txt
 # The largest number of words of a page, and of all pages except the changes.
 MOST_WORDS = {"README.md": 1230, "CONTRIBUTING.md": 1400, "cli/README.md": 4785, "shaders/README.md": 6320,
               "tests/bench/README.md": 1500}
-MOST_WORDS_IN_ALL = 23_850
+MOST_WORDS_IN_ALL = 23_950
 
 # Each row has a pattern for pages, a file, and a pattern for the file. Groups are in the same order.
 NUMBERS = (

@@ -30,6 +30,7 @@ from pt._film import Film, FilmInfo, FilmTile
 from pt._image import Image
 from pt._library import library, version_text
 from pt._scene import Material, Plane, Scene, Sphere, SphereArray
+from pt._scene_file import Display, Override, SceneFile, load, scene_schema
 from pt._stats import DeviceInfo, ErrorEstimate, Stats, devices
 
 if TYPE_CHECKING:  # Figures import slowly.
@@ -37,12 +38,12 @@ if TYPE_CHECKING:  # Figures import slowly.
     from pt.figures import Figure, figure
 
 __all__ = [
-    "BrokenRule", "Camera", "Comparison", "Context", "DeviceInfo", "DeviceKind", "DeviceLostError", "Error", "Estimator", "Feature", "Figure",
+    "BrokenRule", "Camera", "Comparison", "Context", "DeviceInfo", "DeviceKind", "DeviceLostError", "Display", "Error", "Estimator", "Feature", "Figure",
     "FileError", "Film", "FilmInfo", "FilmTile", "Format", "Image", "IncompatibleError", "InternalError", "InvalidArgumentError",
     "InvalidSceneError", "InvalidStateError", "Light", "Log", "LogLevel", "Material", "NO_OBJECT", "NoDeviceError",
-    "OutOfDeviceMemoryError", "OutOfHostMemoryError", "Plane", "Progress", "Projection", "Quantity", "Region", "RenderSettings",
-    "Result", "Sampler", "Sampling", "Scene", "ShaderError", "Sphere", "SphereArray", "Stats", "Uncertain", "UnsupportedError",
-    "assert_same_light", "compare", "denoise", "devices", "figure", "render", "version",
+    "OutOfDeviceMemoryError", "OutOfHostMemoryError", "Override", "Plane", "Progress", "Projection", "Quantity", "Region", "RenderSettings",
+    "Result", "Sampler", "Sampling", "Scene", "SceneFile", "ShaderError", "Sphere", "SphereArray", "Stats", "Uncertain", "UnsupportedError",
+    "assert_same_light", "compare", "denoise", "devices", "figure", "load", "render", "scene_schema", "version",
 ]
 
 __version__: str

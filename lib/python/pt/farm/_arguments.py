@@ -4,10 +4,13 @@ import argparse
 import pathlib
 import re
 import sys
-from typing import NoReturn
+from collections.abc import Callable
+from typing import Any, NoReturn
 
 from pt._command_line import USAGE, at_least, misnamed, numbered
+from pt._enums import Sampling
 from pt._files import PICTURES
+from pt._scene_file import Override, scene_schema
 from pt._text import tell
 
 FILM_LAYERS = {"mean", "standard-error", "sample-count"}
@@ -18,12 +21,48 @@ def refuse(message: str, code: int = USAGE) -> NoReturn:
     sys.exit(code)
 
 
+def _share(text: str) -> float:
+    try:
+        value = float(text.removesuffix("%")) / (100 if text.endswith("%") else 1)
+    except ValueError:
+        value = 0.0
+    if not 0.0 < value < float("inf"):
+        raise argparse.ArgumentTypeError(f"must be a number above 0 like 0.005 or 0.5%, is {text!r}")
+    return value
+
+
+def _setting(name: str, path: str) -> Callable[[str], list[Override]]:
+    return lambda text: [Override(f"{path}={text}", name)]
+
+
+def _size(text: str) -> list[Override]:
+    found = re.fullmatch(r"(\d+)x(\d+)", text, re.ASCII)
+    if not found:
+        raise argparse.ArgumentTypeError(f"must be two whole numbers like 1920x1080, is {text!r}")
+    return [Override(f"film.{name}={value}", f"--size: {name}") for name, value in zip(("width", "height"), found.groups())]
+
+
+def _add_scene_options(command: argparse.ArgumentParser) -> None:
+    """The options of `pt render` that are values of scene files, --set first, so that others replace its values."""
+    group = command.add_argument_group("as of pt render")
+    settings: dict[str, Any] = {"dest": "overrides", "action": "extend", "default": []}
+    group.add_argument("--set", action="extend", default=[], type=lambda text: [Override(text)], metavar="PATH=VALUE")
+    group.add_argument("--size", type=_size, metavar="WxH", **settings)
+    for section in ("film", "render"):
+        for key in scene_schema()["properties"][section]["properties"]:
+            if key not in ("width", "height"):
+                name = f"--{key.replace('_', '-')}"
+                group.add_argument(name, type=_setting(name, f"{section}.{key}"), metavar="X", **settings)
+    group.add_argument("--error", type=_share, default=0.0, metavar="E")
+    group.add_argument("--sampling", choices=[name.lower() for name in Sampling.__members__], default="best")
+    group.add_argument("--first-sample", type=at_least(0, int), default=0, metavar="N")
+
+
 def parser() -> argparse.ArgumentParser:
     root = argparse.ArgumentParser(prog="pt-farm", description="Renders scene files on a Dask cluster.",
                                    allow_abbrev=False)
     command = root.add_subparsers(dest="command", required=True).add_parser(
-        "render", allow_abbrev=False, help="render a scene",
-        epilog="All other options are as in `pt render`: --size, --spp, --error, --sampling, --seed, --set, ...")
+        "render", allow_abbrev=False, help="render a scene")
     command.add_argument("scene", metavar="SCENE")
     command.add_argument("-o", "--output", action="append", default=[], metavar="IMAGE")
     command.add_argument("--film", metavar="FILM")
@@ -46,6 +85,7 @@ def parser() -> argparse.ArgumentParser:
     command.add_argument("--frames", metavar="A-B")
     command.add_argument("--skip-existing", action="store_true")
     command.add_argument("-q", "--quiet", action="store_true")
+    _add_scene_options(command)
     return root
 
 

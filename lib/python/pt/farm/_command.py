@@ -5,6 +5,7 @@ import contextlib
 import importlib
 import logging
 import os
+import pathlib
 import shutil
 import subprocess
 import sys
@@ -13,20 +14,20 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
-from pt._camera import RenderSettings
 from pt._command_line import CODE_OF_RESULT, FILES, INTERNAL, NO_DEVICE, SIGNAL, TARGET_MISSED, numbered
 from pt._enums import Sampling
 from pt._errors import Error
 from pt._film import Film
-from pt._program import Program, program
+from pt._scene_file import Display, SceneFile, load
 from pt._text import tell
 from pt.farm._arguments import check, frames_of, parser, refuse
-from pt.farm._job import FileJob, read_job
+from pt.farm._job import Job
 from pt.farm._options import FarmError, Options
 from pt.farm._render import render
-from pt.farm._renderer import device_of
 from pt.farm._shown import Shown, Signals
 from pt.farm._sum import write_film
+
+SAMPLES, SAMPLES_TO_ERROR = 64, 65536  # of pt render
 
 
 @contextlib.contextmanager
@@ -57,13 +58,35 @@ def cluster(arguments: argparse.Namespace) -> Iterator[Any]:
         yield client
 
 
-def write_pictures(film: Film, arguments: argparse.Namespace, facts: dict[str, Any], frame: int | None) -> None:
+def program() -> str:
+    """PT_PROGRAM, else the installed package's, else the PATH's."""
+    packaged = pathlib.Path(__file__).parents[1] / "bin" / "pt"
+    return os.environ.get("PT_PROGRAM") or (str(packaged) if packaged.exists() else "pt")
+
+
+def read_scene(arguments: argparse.Namespace, frame: int | None) -> SceneFile:
+    path, text = arguments.scene, None
+    if path == "-":
+        path, text = "standard input", arguments.standard_input
+    return load(path, text=text, overrides=[*arguments.set, *arguments.overrides], frame=frame)
+
+
+def sample_count(arguments: argparse.Namespace, file: SceneFile) -> int:
+    count = file.samples or (SAMPLES_TO_ERROR if arguments.error else SAMPLES)
+    left: int = 2**32 - arguments.first_sample
+    if count > left and not arguments.error:
+        refuse(f"--first-sample {arguments.first_sample}: {count} samples from there on would pass the last index, {2**32 - 1}")
+    return min(count, left)
+
+
+def write_pictures(film: Film, arguments: argparse.Namespace, display: Display, frame: int | None) -> None:
     if arguments.film:
         write_film(film, numbered(arguments.film, frame))
     if not arguments.output:
         return
-    options = ["--exposure", str(facts["exposure"]), "--tonemap", facts["tonemap"]]
-    options += ["--gamma", str(facts["gamma"])] if facts["gamma"] else []
+    options = ["--exposure", "auto" if display.exposure is None else repr(display.exposure),
+               "--tonemap", display.tonemap]
+    options += ["--gamma", repr(display.gamma)] if display.gamma else []
     options += [word for name in arguments.output for word in ("-o", numbered(name, frame))]
     options += ["--layers", arguments.layers] if arguments.layers else []
     with tempfile.TemporaryDirectory() as folder:
@@ -78,35 +101,34 @@ def write_pictures(film: Film, arguments: argparse.Namespace, facts: dict[str, A
             sys.exit(done.returncode)
 
 
-def described(job: FileJob, frame: int | None) -> tuple[FileJob, dict[str, Any]]:
-    job = job if frame is None else replace(job, arguments=(*job.arguments, "--frames", str(frame)))
-    reader = Program(job.arguments, job.files, device_of(job))
-    reader.close()
-    facts = reader.facts
-    settings = RenderSettings(facts["width"], facts["height"], first_sample=facts["first_sample"])
-    return replace(job, settings=settings), facts
-
-
-def render_pictures(arguments: argparse.Namespace, others: list[str], signals: Signals) -> int:
+def render_pictures(arguments: argparse.Namespace, signals: Signals) -> int:
     check(arguments)
     frames = frames_of(arguments)
-    scene = read_job(arguments.scene, others, arguments.device)
+    if arguments.scene == "-":
+        arguments.standard_input = sys.stdin.read()
     code = 0
     options = Options(part_seconds=arguments.part_seconds, patience=arguments.patience, mixed=arguments.mixed,
                       checkpoint=arguments.checkpoint, checkpoint_every=arguments.checkpoint_every,
                       wait_for_workers=arguments.wait)
     for frame in frames[:1]:
-        described(scene, frame)
+        sample_count(arguments, read_scene(arguments, frame))
     with cluster(arguments) as client:
         for frame in frames:
-            job, facts = described(scene, frame)
+            file = read_scene(arguments, frame)
+            settings = replace(file.settings, first_sample=arguments.first_sample)
             signals.is_rendering = True
-            result = render(client, job, facts["samples"], target_error=facts["target_error"],
-                            sampling=Sampling(facts["sampling"]), options=options,
-                            progress=Shown(arguments.quiet, signals))
+            try:
+                result = render(client, Job(file.scene, file.camera, settings, arguments.device),
+                                sample_count(arguments, file), target_error=arguments.error,
+                                sampling=Sampling[arguments.sampling.upper()], options=options,
+                                progress=Shown(arguments.quiet, signals))
+            except FarmError as error:
+                if error.broken_rules:
+                    raise file.explained(Error(str(error), error.broken_rules)) from error
+                raise
             if signals.number and frame is not None:
                 break  # Do not write an unfinished frame.
-            write_pictures(result.film, arguments, facts, frame)
+            write_pictures(result.film, arguments, file.display, frame)
             signals.is_rendering = False
             if len(result.devices) > 1 and not arguments.quiet:
                 tell("pt-farm", "devices were mixed: the picture is right, but not to the bit: "
@@ -119,10 +141,10 @@ def render_pictures(arguments: argparse.Namespace, others: list[str], signals: S
 
 
 def main() -> int:
-    arguments, others = parser().parse_known_args()
+    arguments = parser().parse_args()
     signals = Signals()
     try:
-        return render_pictures(arguments, others, signals)
+        return render_pictures(arguments, signals)
     except (FarmError, Error) as error:
         tell("pt-farm", str(error))
         return SIGNAL + signals.number if signals.number else CODE_OF_RESULT.get(error.result, INTERNAL)

@@ -15,7 +15,7 @@ from pt._stats import ErrorEstimate
 from pt.farm import _task
 from pt.farm._crew import Crew
 from pt.farm._identity import Identity, identity_of
-from pt.farm._job import AnyJob, name_of, packed
+from pt.farm._job import Job, name_of, packed
 from pt.farm._options import FarmError, Options, Progress, Result
 from pt.farm._part import Cells, Goals, Part, cells_of, further_parts, grid_shape, has_only, is_film_of, missing_parts
 from pt.farm._speed import least_seconds
@@ -41,7 +41,7 @@ class _Opened(NamedTuple):
 class Coordinator:
     """final: samples per pixel at the end; 0 if undecided."""
 
-    def __init__(self, client: Any, job: AnyJob, options: Options,
+    def __init__(self, client: Any, job: Job, options: Options,
                  show: Callable[[Progress, Film | None], object], final: int) -> None:
         self._client, self._job, self._options, self._show = client, job, options, show
         data = packed(job)

@@ -84,7 +84,7 @@ class Crew:
         self._progress.failed += 1
         self._progress.last_result = outcome.result
         if not outcome.may_help_elsewhere:
-            raise FarmError(outcome.error, outcome.result)
+            raise FarmError(outcome.error, outcome.result, outcome.broken_rules)
         member.failures += 1
         member.is_banned = member.failures >= most
         word = " is refused" if member.failures == most else ""

@@ -3,17 +3,20 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from pt import _enums as enums
+from pt._errors import BrokenRule
 from pt._film import Film
 from pt._files import Path
 
 
 class FarmError(RuntimeError):
     """The message has the workers' reports; the checkpoint has the returned films. result: the library's error, or
-    ERROR_INTERNAL."""
+    ERROR_INTERNAL. broken_rules: those of a worker's error."""
 
-    def __init__(self, message: str, result: int = enums.Result.ERROR_INTERNAL) -> None:
+    def __init__(self, message: str, result: int = enums.Result.ERROR_INTERNAL,
+                 broken_rules: tuple[BrokenRule, ...] = ()) -> None:
         super().__init__(message)
         self.result = enums.Result(result)
+        self.broken_rules = broken_rules
 
 
 @dataclass(frozen=True)

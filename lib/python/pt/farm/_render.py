@@ -11,14 +11,14 @@ from pt._enums import Sampling
 from pt._film import Film
 from pt._library import library
 from pt.farm._coordinator import Coordinator
-from pt.farm._job import AnyJob
+from pt.farm._job import Job
 from pt.farm._options import FarmError, Options, Progress, Result
 from pt.farm._part import Goals, grid_shape
 
 FIRST_LOOK = 16  # fewest samples with a known error
 
 
-def render(client: Any, job: AnyJob, samples: int, *, target_error: float = 0.0, sampling: Sampling = Sampling.BEST,
+def render(client: Any, job: Job, samples: int, *, target_error: float = 0.0, sampling: Sampling = Sampling.BEST,
            options: Options = Options(), progress: Callable[[Progress, Film | None], object] = lambda *_: None
            ) -> Result:
     """Renders a picture on the workers of a Dask cluster.
@@ -46,7 +46,7 @@ def render(client: Any, job: AnyJob, samples: int, *, target_error: float = 0.0,
         coordinator.close()
 
 
-def _to_samples(coordinator: Coordinator, job: AnyJob, samples: int) -> Result:
+def _to_samples(coordinator: Coordinator, job: Job, samples: int) -> Result:
     """Renders in steps, so that the picture always covers all pixels."""
     shape = grid_shape(job.settings.width, job.settings.height)
     steps = [np.full(shape, count, np.uint32) for count in _counts_to(samples)]
@@ -65,7 +65,7 @@ def _counts_to(samples: int) -> Iterator[int]:
     yield samples
 
 
-def _to_error(coordinator: Coordinator, job: AnyJob, samples: int, target_error: float, sampling: Sampling) -> Result:
+def _to_error(coordinator: Coordinator, job: Job, samples: int, target_error: float, sampling: Sampling) -> Result:
     def further() -> Goals | None:
         """Plans returned tiles while others are running. This is possible because a tile's plan depends only on its own
         samples (lib/film/adaptive_rule.h)."""

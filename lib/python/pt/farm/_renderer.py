@@ -2,40 +2,20 @@ from __future__ import annotations
 
 import os
 from dataclasses import replace
-from typing import Protocol
 
 import numpy as np
 
 from pt._context import Context
 from pt._enums import DeviceKind
-from pt._program import Program
-from pt.farm._job import AnyJob, FileJob, Job
+from pt.farm._job import Job
 from pt.farm._part import Part, grid_shape
 
 
-class Renderer(Protocol):
-    @property
-    def is_cpu(self) -> bool:
-        """Valid after the first film."""
-
-    def film(self, part: Part) -> bytes:
-        """Raises Error if the part cannot be rendered."""
-
-    def close(self) -> None:
-        """Frees the device."""
-
-
-def renderer_of(job: AnyJob) -> Renderer:
-    if isinstance(job, FileJob):
-        return File(job)
-    return Library(job)
-
-
-def device_of(job: AnyJob) -> str | None:
+def device_of(job: Job) -> str | None:
     return job.device or os.environ.get("PT_DEVICE") or None
 
 
-class Library:
+class Renderer:
     def __init__(self, job: Job) -> None:
         self._settings = job.settings
         self._context = Context(device_of(job))
@@ -54,18 +34,3 @@ class Library:
 
     def close(self) -> None:
         self._context.close()
-
-
-class File:
-    def __init__(self, job: FileJob) -> None:
-        self._program = Program(job.arguments, job.files, device_of(job))
-
-    @property
-    def is_cpu(self) -> bool:
-        return self._program.is_cpu
-
-    def film(self, part: Part) -> bytes:
-        return self._program.film(part.first, part.end, part.tiles)
-
-    def close(self) -> None:
-        self._program.close()

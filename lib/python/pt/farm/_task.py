@@ -11,10 +11,10 @@ import numpy as np
 
 from pt import _zstd
 from pt._enums import Result
-from pt._errors import Error, IncompatibleError, InvalidArgumentError, InvalidSceneError
-from pt.farm._job import AnyJob, name_of, unpacked
+from pt._errors import BrokenRule, Error, IncompatibleError, InvalidArgumentError, InvalidSceneError
+from pt.farm._job import Job, name_of, unpacked
 from pt.farm._part import Part
-from pt.farm._renderer import Renderer, renderer_of
+from pt.farm._renderer import Renderer
 
 CLOCKS = 1.01  # largest assumed ratio of two machines' clock rates
 PERMANENT = (InvalidSceneError, InvalidArgumentError, IncompatibleError)
@@ -28,6 +28,7 @@ class Outcome:
     error: str = ""
     may_help_elsewhere: bool = True
     result: int = Result.OK
+    broken_rules: tuple[BrokenRule, ...] = ()
 
 
 def fault_of(value: object, seconds: float) -> str:
@@ -35,15 +36,17 @@ def fault_of(value: object, seconds: float) -> str:
     if not isinstance(value, Outcome):
         return f"a value of type {type(value).__name__}"
     for name, kind in (("data", bytes), ("seconds", float), ("is_cpu", bool), ("error", str),
-                       ("may_help_elsewhere", bool), ("result", int)):
+                       ("may_help_elsewhere", bool), ("result", int), ("broken_rules", tuple)):
         if not isinstance(getattr(value, name, None), kind):
             return f"{name} of type {type(getattr(value, name, None)).__name__}"
     if not 0.0 <= value.seconds <= CLOCKS * seconds:
         return f"seconds = {value.seconds}, which must be from 0 to the {seconds:.3g} since it was asked"
+    if not all(isinstance(rule, BrokenRule) for rule in value.broken_rules):
+        return "broken_rules of another type"
     return "" if value.result in set(Result) else f"result = {value.result}"
 
 
-def first_part(job: AnyJob) -> Part:
+def first_part(job: Job) -> Part:
     first = job.settings.first_sample
     return Part(first, first + 1, np.zeros(1, np.uint32))
 
@@ -51,7 +54,7 @@ def first_part(job: AnyJob) -> Part:
 @dataclass
 class _Ready:
     name: str
-    job: AnyJob
+    job: Job
     renderer: Renderer
     has_failed: bool = False
 
@@ -63,7 +66,8 @@ _ready: _Ready | None = None
 def _failed(error: Exception) -> Outcome:
     return Outcome(error=f"{socket.gethostname()}, process {os.getpid()}: {type(error).__name__}: {error}",
                    may_help_elsewhere=not isinstance(error, PERMANENT),
-                   result=error.result if isinstance(error, Error) else Result.ERROR_INTERNAL)
+                   result=error.result if isinstance(error, Error) else Result.ERROR_INTERNAL,
+                   broken_rules=error.broken_rules if isinstance(error, Error) else ())
 
 
 def introduce(data: bytes, codecs: frozenset[str]) -> Outcome:
@@ -75,7 +79,7 @@ def introduce(data: bytes, codecs: frozenset[str]) -> Outcome:
                     _ready.renderer.close()
                     _ready = None
                 job = unpacked(data)
-                _ready = _Ready(name_of(data), job, renderer_of(job))
+                _ready = _Ready(name_of(data), job, Renderer(job))
         except Exception as error:
             return _failed(error)
     return render_part(_ready.name, first_part(_ready.job), codecs)
@@ -88,7 +92,7 @@ def render_part(name: str, part: Part, codecs: frozenset[str]) -> Outcome:
                 raise RuntimeError("this worker has another job")
             if _ready.has_failed:  # A lost device needs a new context or process.
                 _ready.renderer.close()
-                _ready.renderer, _ready.has_failed = renderer_of(_ready.job), False
+                _ready.renderer, _ready.has_failed = Renderer(_ready.job), False
             start = time.monotonic()
             data = pack(_ready.renderer.film(part), codecs)
             return Outcome(data, time.monotonic() - start, _ready.renderer.is_cpu)

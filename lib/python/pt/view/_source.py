@@ -13,8 +13,9 @@ from pt._camera import Camera, RenderSettings
 from pt._errors import Error
 from pt._files import regular
 from pt._film import Film
-from pt._program import Program
 from pt._scene import Scene
+from pt._scene_file import SceneFile
+from pt._scene_file import load as load_scene
 from pt.figures._accept import load
 from pt.figures._figure import Staged
 from pt.figures._files import write_scene
@@ -51,22 +52,17 @@ class Source(Protocol):
 class SceneSource:
     def __init__(self, path: pathlib.Path) -> None:
         self.path = path.resolve()
+        self._file: SceneFile | None = None
 
     def read(self) -> Shown:
-        program = Program([str(self.path)])
-        try:
-            read = program.scene()
-        finally:
-            program.close()
-        display = {name: program.facts[name] for name in ("exposure", "tonemap", "gamma")}
-        return Shown(read.scene, read.camera, read.settings, display, [self.path, *map(pathlib.Path, read.files)])
+        self._file = file = load_scene(self.path)
+        display = {"exposure": "auto" if file.display.exposure is None else file.display.exposure,
+                   "tonemap": file.display.tonemap, "gamma": file.display.gamma}
+        return Shown(file.scene, file.camera, file.settings, display, [self.path, *file.files])
 
     def explained(self, error: Exception) -> str:
-        try:
-            if not str(error).startswith(str(self.path)):
-                Program([str(self.path)]).film(0, 1, [0])
-        except Error as refusal:
-            error = refusal
+        if self._file and isinstance(error, Error):
+            error = self._file.explained(error)
         return str(error).replace(f"{self.path.parent}/", "")
 
     def saved(self, camera: Camera) -> tuple[str, bytes]:

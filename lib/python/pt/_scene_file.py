@@ -1,0 +1,226 @@
+"""Scene files, read by the library libpt-scene."""
+
+from __future__ import annotations
+
+import ctypes
+import functools
+import json
+import os
+import pathlib
+import sys
+from collections.abc import Iterable, Mapping
+from ctypes import POINTER, c_char_p, c_int32, c_uint32, c_void_p
+from dataclasses import dataclass, field
+from typing import Any, Final
+
+import numpy as np
+
+from pt import _structs as structs
+from pt._camera import Camera, RenderSettings
+from pt._columns import Array
+from pt._enums import ColumnType, Estimator, MaterialFlag, Projection, Sampler, SceneFileFlag
+from pt._errors import ERROR_OF_RESULT, BrokenRule, Error, InvalidArgumentError, InvalidSceneError
+from pt._files import Path
+from pt._library import VERSION, library_path
+from pt._scene import Material, Plane, Scene, Sphere, SphereArray
+from pt._text import c_string
+
+SONAME: Final = {"win32": "pt-scene.dll", "darwin": f"libpt-scene.{VERSION}.dylib"}.get(
+    sys.platform, f"libpt-scene.so.{VERSION}")
+CURVES: Final = ("none", "reinhard", "aces", "agx", "neutral")
+COLUMNS: Final = {"center": 3, "radius": 1, "material": 1, "motion": 3, "color": 3, "end": 3, "opacity": 1}
+TYPES: Final = {ColumnType.FLOAT32: np.float32, ColumnType.FLOAT64: np.float64, ColumnType.UINT32: np.uint32,
+                ColumnType.SRGB8: np.uint8}
+PARAMETERS: Final[dict[str, list[Any]]] = {
+    "pt_open_scene_file": [POINTER(structs.pt_scene_file_info), POINTER(c_void_p)],
+    "pt_close_scene_file": [c_void_p],
+    "pt_get_scene_file": [c_void_p, POINTER(structs.pt_scene), POINTER(structs.pt_camera), POINTER(structs.pt_render),
+                          POINTER(structs.pt_scene_film)],
+    "pt_get_column_path": [c_void_p, c_uint32],
+    "pt_find_rule_source": [c_void_p, POINTER(structs.pt_broken_rule), POINTER(structs.pt_rule_source)],
+    "pt_get_scene_schema": [],
+    "pt_last_scene_error": [],
+}
+NOT_RESULTS: Final[dict[str, Any]] = {"pt_close_scene_file": None, "pt_get_column_path": c_char_p,
+                                      "pt_get_scene_schema": c_char_p, "pt_last_scene_error": c_char_p}
+
+
+@functools.lru_cache(maxsize=1)
+def scene_library() -> ctypes.CDLL:
+    """Loads the library beside libpt, else the system's. ImportError: missing."""
+    beside = pathlib.Path(library_path()).with_name(SONAME)
+    path = str(beside) if beside.exists() else SONAME
+    try:
+        loaded = ctypes.CDLL(path)
+        for name, parameters in PARAMETERS.items():
+            function = getattr(loaded, name)
+            function.argtypes = parameters
+            function.restype = NOT_RESULTS.get(name, c_int32)
+    except (OSError, AttributeError) as error:
+        raise ImportError(f"{path} is no libpt-scene that can be loaded: {error}") from error
+    return loaded
+
+
+@dataclass(frozen=True)
+class Override:
+    """A value in place of a file's.
+
+    setting   path and value, "camera.vertical_fov=30"
+    name      the value's name in messages; None: the setting
+    """
+
+    setting: str
+    name: str | None = None
+
+
+@dataclass(frozen=True)
+class Display:
+    """How a picture is shown.
+
+    exposure   stops; None: automatic
+    tonemap    curve from radiance to light, one of CURVES
+    gamma      encodes with the power 1 / gamma; None: the sRGB curve
+    """
+
+    exposure: float | None = None
+    tonemap: str = CURVES[0]
+    gamma: float | None = None
+
+
+@dataclass(frozen=True)
+class SceneFile:
+    """What a scene file contains.
+
+    samples   samples of a pixel; None: the file has no number
+    files     files of columns
+    """
+
+    scene: Scene
+    camera: Camera
+    settings: RenderSettings
+    samples: int | None
+    display: Display
+    files: tuple[pathlib.Path, ...]
+    _handle: _Handle = field(repr=False, compare=False)
+
+    def explained(self, error: Error) -> Error:
+        """The error in the file's words: "scene.json:7: materials.gold.glossiness = -1: must be >= 0". An override's
+        value is an InvalidArgumentError."""
+        if not error.broken_rules:
+            return error
+        sources = [self._handle.source(rule) for rule in error.broken_rules]
+        kind = InvalidSceneError if all(index < 0 for _, index in sources) else InvalidArgumentError
+        return kind("\n".join(message for message, _ in sources), error.broken_rules)
+
+
+def load(path: Path, *, text: str | None = None, overrides: Mapping[str, Any] | Iterable[Override] = (),
+         frame: int | None = None) -> SceneFile:
+    """Reads a scene file and its columns. Arrays are the file's memory and cannot be changed.
+
+    text        the file's contents; path is then only its name, and the folder of its columns
+    overrides   values in place of the file's, {"film.width": 640, "spheres[0].center": [0, 1, 0]}; later ones win
+    frame       a frame of the file's animation; its number is added to the seed
+
+    InvalidSceneError, with file, line, value and rule. InvalidArgumentError: an override is wrong. FileError."""
+    given = ([Override(f"{name}={json.dumps(value)}", name) for name, value in overrides.items()]
+             if isinstance(overrides, Mapping) else list(overrides))
+    handle = _Handle(path, text, given, frame)
+    scene, camera, render, film = handle.contents()
+    display = Display(None if film.automatic_exposure else film.exposure, CURVES[film.curve], film.gamma or None)
+    return SceneFile(handle.scene_of(scene), _camera(camera), _settings(render), film.sample_count or None, display,
+                     handle.files(), handle)
+
+
+def scene_schema() -> dict[str, Any]:
+    """The JSON Schema of scene files."""
+    text = scene_library().pt_get_scene_schema()
+    if text is None:
+        raise MemoryError
+    schema: dict[str, Any] = json.loads(text)
+    return schema
+
+
+class _Handle:
+    """Owns a pt_scene_file."""
+
+    def __init__(self, path: Path, text: str | None, overrides: list[Override], frame: int | None) -> None:
+        self._library = scene_library()
+        self._pointer = c_void_p()
+        data = None if text is None else text.encode()
+        listed = (structs.pt_scene_override * len(overrides))(
+            *(structs.pt_scene_override(c_string(each.setting), c_string(each.name)) for each in overrides))
+        info = structs.pt_scene_file_info(
+            path=c_string(path), text=data, text_bytes=len(data or b""), overrides=listed if overrides else None,
+            override_count=len(overrides), flags=0 if frame is None else SceneFileFlag.FRAME, frame=frame or 0)
+        self._checked(self._library.pt_open_scene_file(info, self._pointer))
+
+    def __del__(self) -> None:
+        if self._pointer:
+            self._library.pt_close_scene_file(self._pointer)
+
+    def _checked(self, result: int) -> None:
+        if result < 0:
+            raise ERROR_OF_RESULT[result](self._library.pt_last_scene_error().decode(errors="replace"))
+
+    def contents(self) -> tuple[structs.pt_scene, structs.pt_camera, structs.pt_render, structs.pt_scene_film]:
+        read = (structs.pt_scene(), structs.pt_camera(), structs.pt_render(), structs.pt_scene_film())
+        self._checked(self._library.pt_get_scene_file(self._pointer, *read))
+        return read
+
+    def files(self) -> tuple[pathlib.Path, ...]:
+        found: list[pathlib.Path] = []
+        while (path := self._library.pt_get_column_path(self._pointer, len(found))) is not None:
+            found.append(pathlib.Path(os.fsdecode(path)))
+        return tuple(found)
+
+    def source(self, rule: BrokenRule) -> tuple[str, int]:
+        """Message, and the number of the override that has the value, or -1."""
+        broken = structs.pt_broken_rule(
+            component=-1 if rule.component is None else rule.component, index=-1 if rule.index is None else rule.index,
+            subject=rule.subject.encode(), member=rule.member.encode(), value=rule.value.encode(), rule=rule.rule.encode(),
+            **{"with": rule.joined_with.encode()})
+        source = structs.pt_rule_source()
+        self._checked(self._library.pt_find_rule_source(self._pointer, broken, source))
+        return source.message.decode(errors="replace"), source.override_index
+
+    def scene_of(self, scene: structs.pt_scene) -> Scene:
+        spheres = [Sphere(tuple(each.center), each.radius, each.material, tuple(each.motion))
+                   for each in scene.spheres[:scene.sphere_count]]
+        planes = [Plane(tuple(each.normal), each.offset, each.material) for each in scene.planes[:scene.plane_count]]
+        return Scene(spheres, planes, [self._array(each) for each in scene.sphere_arrays[:scene.sphere_array_count]],
+                     materials=[_material(each) for each in scene.materials[:scene.material_count]])
+
+    def _array(self, array: structs.pt_sphere_array) -> SphereArray:
+        columns = {name: self._column(getattr(array, name), array.count, length) for name, length in COLUMNS.items()}
+        return SphereArray(**{name: column for name, column in columns.items() if column is not None})
+
+    def _column(self, column: structs.pt_column, count: int, length: int) -> Array | None:
+        """A view of the file's memory, which keeps this object alive."""
+        if not column.data:
+            return None
+        dtype = np.dtype(TYPES[ColumnType(column.type)])
+        row = length * dtype.itemsize
+        buffer: Any = (ctypes.c_char * ((count - 1) * column.stride_bytes + row if count else 0)).from_address(column.data)
+        buffer.owner = self
+        shape, strides = ((count,), (column.stride_bytes,)) if length == 1 else (
+            (count, length), (column.stride_bytes, dtype.itemsize))
+        view: Array = np.ndarray(shape, dtype, buffer, 0, strides)
+        view.flags.writeable = False
+        return view
+
+
+def _material(read: structs.pt_material) -> Material:
+    return Material(tuple(read.diffuse), tuple(read.specular), tuple(read.emission), read.glossiness,
+                    bool(read.flags & MaterialFlag.HIDDEN_FROM_CAMERA))
+
+
+def _camera(read: structs.pt_camera) -> Camera:
+    is_parallel = read.projection == Projection.ORTHOGRAPHIC
+    return Camera(tuple(read.position), tuple(read.target), tuple(read.up) if any(read.up) else (0.0, 1.0, 0.0),
+                  vertical_fov=None if is_parallel else read.vertical_fov or None, shutter=(read.shutter_open, read.shutter_close),
+                  vertical_extent=read.vertical_extent if is_parallel else None, aperture=read.aperture, focus=read.focus)
+
+
+def _settings(read: structs.pt_render) -> RenderSettings:
+    return RenderSettings(read.width, read.height, read.max_path_length, read.seed, estimator=Estimator(read.estimator),
+                          sampler=Sampler(read.sampler))
