@@ -1,4 +1,4 @@
-// Compares capsules with double. PT_TEST_MANY renders 100 random scenes.
+// Compares capsules with double precision. PT_TEST_MANY renders 100 random scenes.
 #include "lib/tree/tree_choice.h"
 #include "tests/support/light_in_double.h"
 
@@ -108,8 +108,8 @@ protected:
             }
             const bool meets = nearest.distance < 1e-9;
             met += meets ? 1 : 0;
-            // float32 has an error of 8 2^-24 at a distance of 8, and of 2^-23 of the huge radius. At grazing angles it
-            // has the root of these.
+            // float32 has an error of 8 2^-24 at a distance of 8, and of 2^-23 of the huge radius. At grazing angles
+            // the error is the square root of these.
             const bool is_near = std::abs(depths[3 * i] - depth) < 2e-4 * depth;
             const bool is_object = objects[i] == seen.spheres.size() + nearest.index;
             wrong += meets != std::isfinite(depths[3 * i]) || (meets && !(is_near && is_object)) ? 1 : 0;
@@ -153,13 +153,14 @@ double difference(const std::vector<float> &a, const std::vector<float> &b) {
     return differences / light;
 }
 
-// Bits are equal if there are other capsules. Without these, another kernel rounds differently within 2^-22 of the
-// silhouettes of 100 balls, in fewer than 1e-4 of the rays. A missing ball changes a hundredth.
+// Where the scene has other capsules too, the bits are equal. Without them, another kernel rounds differently within
+// 2^-22 of the silhouettes of 100 balls, in fewer than 1e-4 of the rays. A missing ball would change a hundredth of
+// them.
 TEST_F(Capsules, AreSpheresWhereTheirEndsCoincide) {
     for (const bool all : {false, true}) {
         Given given = all ? random_scene(4, 200, 100, 8.0) : random_scene(1, 6, 3, 8.0);
         if (all)
-            given.camera.shutter_close = 0.0; // other kernels may round motion differently
+            given.camera.shutter_close = 0.0; // Other kernels may round motion differently.
         Given spheres = given;
         spheres.capsules.clear();
         for (std::size_t i = 0; i < given.capsules.size(); ++i) {

@@ -1,4 +1,4 @@
-// Which surface rounding moves by more than a pixel.
+// Finds the surface that rounding moves by more than a pixel.
 #include "lib/kernel/displacement.h"
 #include "lib/scene/checked_scene.h"
 #include "tests/support/checked_scene_of.h"
@@ -23,7 +23,7 @@ struct Surface {
 
 constexpr float half = 0.5F;
 
-// A pixel's side is 1/512 of its distance, less 0.8% by the bounds of depths.
+// A pixel's side is 1/512 of its distance. The bounds of depths reduce it by 0.8%.
 constexpr pt::RenderSettings square{64, 64, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 64};
 const pt::Camera ahead{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.0625, 0.0, 1.0};
 
@@ -69,8 +69,8 @@ std::optional<pt::BrokenRule> displaced_capsule(const glm::dvec3 &center, const 
 }
 
 TEST(Displacement, OfSpheresThatShareAGridWithADistantOne) {
-    // The grid reaches from -4 to -1e9 - 1. Its steps are 1, so centers are off by half its diagonal. The near sphere's
-    // center becomes -4.5, and a pixel at -3.5 has the side 1 / 146.3.
+    // The grid reaches from -4 to -1e9 - 1. Its steps are 1, so centers move by up to half its diagonal. The near
+    // sphere's center becomes -4.5, and a pixel at -3.5 has the side 1 / 146.3.
     const auto rule = displaced({{{0, 0, -5}, 1, half}, {{0, 0, -1e9}, 1, half}});
     ASSERT_TRUE(rule);
     EXPECT_EQ(rule->subject, "sphere_arrays");
@@ -119,7 +119,7 @@ TEST(Displacement, OfLongCapsules) {
         return displaced_capsule({-0.5 * length, 0, -1.5}, {0.5 * length, 0, -1.5}, 0.5);
     };
     EXPECT_FALSE(passing(1));
-    EXPECT_FALSE(passing(3200)); // The bound may place its parts nearer by an eighth.
+    EXPECT_FALSE(passing(3200)); // The bound may place parts of the capsule nearer by an eighth.
     const auto rule = passing(4200);
     ASSERT_TRUE(rule);
     EXPECT_EQ(rule->member, "end");

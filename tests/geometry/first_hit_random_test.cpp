@@ -1,5 +1,5 @@
-// Compares first hits in random scenes, in trees and lists, with long double. PT_TEST_MANY renders 600 scenes, and
-// PT_TEST_FIRST_SCENE is the first one.
+// Compares first hits in random scenes, in trees and lists, with long double. PT_TEST_MANY renders 600 scenes.
+// PT_TEST_FIRST_SCENE is the first scene's number.
 #include "lib/kernel/gpu_scene.h"
 #include "tests/geometry/first_hit_scenes.h"
 #include "tests/geometry/tree_fixture.h"
@@ -31,13 +31,13 @@ struct Shot : Given {
     std::uint32_t first_column = 0;
 };
 
-constexpr std::uint32_t columns = 16; // columns of the crop
+constexpr std::uint32_t columns = 16;
 constexpr std::uint32_t rows = 2;
-constexpr std::uint32_t lattice_size = 16; // rays per pixel
+constexpr std::uint32_t lattice_size = 16;
 
 struct Pixels {
     std::vector<std::uint32_t> objects;
-    std::vector<float> depths, normals, albedos; // three per pixel
+    std::vector<float> depths, normals, albedos; // three numbers per pixel
 
     bool operator==(const Pixels &) const = default;
 };
@@ -119,7 +119,7 @@ protected:
                                                     given.render.first_row + pixel / columns);
         if (!means)
             return false;
-        // The sums have 16 numbers up to 1. Albedos have a dozen roundings.
+        // Sums of 16 numbers up to 1 have this error. Albedos add a dozen roundings.
         const double of_sum = 16.0 * static_cast<double>(rounding);
         for (int i = 0; i < 3; ++i) {
             const std::size_t place = 3 * pixel + static_cast<std::size_t>(i);
@@ -156,7 +156,7 @@ protected:
             EXPECT_EQ(pixels.depths[3 * pixel + 1], pixels.depths[3 * pixel]);
             EXPECT_EQ(pixels.depths[3 * pixel + 2], pixels.depths[3 * pixel]);
             const Real depth = met->distance * glm::dot(ray.direction, view.forward);
-            // The cosine to the axis and the product have 8 roundings.
+            // The cosine to the axis and the product add 8 roundings.
             const Real tolerance = met->tolerance + 8.0L * rounding * met->distance;
             if (met->object == PT_NO_OBJECT)
                 EXPECT_EQ(pixels.depths[3 * pixel], std::numeric_limits<float>::infinity());
@@ -262,8 +262,8 @@ TEST_F(RandomFirstHit, IsThatOfLongDouble) {
     }
 }
 
-// Coordinates in quarters are exact in float32 and on the grid, so tree and list agree to the bit. Rays start beyond
-// the tree.
+// Multiples of 1/4 are exact in float32 and on the grid, so tree and list agree to the bit. Rays start outside the
+// tree.
 TEST_F(RandomFirstHit, OfALatticeInASkyIsThatOfAList) {
     Shot shot;
     shot.materials = {{{0.7F, 0.7F, 0.7F}, {0, 0, 0}, {0, 0, 0}, 0, 0}, {{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0, 0}};

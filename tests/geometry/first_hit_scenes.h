@@ -1,4 +1,3 @@
-// Scenes for tests of first hits.
 #pragma once
 
 #include "tests/support/coursework_scene.h"
@@ -21,7 +20,7 @@ struct Given {
 
 inline std::vector<pt_material> some_materials() {
     return {{{0.8F, 0.4F, 0.2F}, {0.1F, 0.2F, 0.3F}, {0, 0, 0}, 7, 0},
-            {{0.9F, 0.1F, 0}, {0.3F, 0, 0}, {0, 0, 0}, 0, 0}, // reflects 1.2 in red
+            {{0.9F, 0.1F, 0}, {0.3F, 0, 0}, {0, 0, 0}, 0, 0}, // The red sums to 1.2.
             {{0.25F, 0.5F, 0.75F}, {0, 0, 0}, {30, 20, 10}, 0, 0}};
 }
 

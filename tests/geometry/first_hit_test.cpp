@@ -1,4 +1,3 @@
-// First hits of camera rays, through pt.h.
 #include "lib/film/pixel_format.h"
 #include "tests/geometry/first_hit_scenes.h"
 #include "tests/support/context_calls.h"
@@ -58,7 +57,7 @@ TEST_F(FirstHit, RectanglesRowsAndDevicesAgree) {
     const Given given = many(true);
     set(context(), given, picture());
     const Context hurried = create_context([](pt_create_info &info) { info.submit_milliseconds = 1; });
-    ASSERT_TRUE(hurried); // pieces of some hundred pixels
+    ASSERT_TRUE(hurried); // Each piece has some hundred pixels.
     set(hurried.get(), given, picture());
     const Context shared = create_context([](pt_create_info &) {},
                                           [](auto *info, auto **made) { return create_shared(2, *info, made, true); });
@@ -133,7 +132,7 @@ TEST_F(FirstHit, IsNothingToSamples) {
         readback(image);
         EXPECT_EQ(image, expected);
         EXPECT_EQ(read(context(), PT_QUANTITY_NORMAL), normal);
-        EXPECT_GT(stats().device_bytes, bytes); // allocated on demand
+        EXPECT_GT(stats().device_bytes, bytes);
     }
 }
 
@@ -167,7 +166,7 @@ TEST_F(FirstHit, TwinsHaveTheNumberOfTheFirst) {
     }
 }
 
-// Spheres in columns have numbers after structs. Trees hold colors to a thousandth.
+// Spheres in columns are numbered after the structs. Trees store colors to a thousandth.
 TEST_F(FirstHit, ColumnsHaveNumbersAndColors) {
     Given given;
     given.materials = {{{0.8F, 0.8F, 0.8F}, {0, 0, 0}, {0, 0, 0}, 0, 0}};

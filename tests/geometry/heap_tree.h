@@ -1,4 +1,3 @@
-// Trees over heaps of balls, and their words decoded.
 #pragma once
 
 #include "lib/tree/sphere_tree.h"
@@ -42,8 +41,8 @@ inline pt::Camera camera_at(const glm::dvec3 &position, double open = 0.0, doubl
 
 struct Held {
     glm::ivec3 center;
-    glm::dvec3 way; // in steps
-    double radius;  // in steps
+    glm::dvec3 way; // in grid steps
+    double radius;  // in grid steps
 };
 
 inline Held held(const pt::SphereTree &tree, std::uint32_t place) {

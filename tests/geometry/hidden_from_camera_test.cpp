@@ -1,4 +1,3 @@
-// Surfaces hidden from the camera, through pt.h.
 #include "tests/support/batch_fixture.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/support/image_target.h"
@@ -64,7 +63,7 @@ pt_sphere ball(double x, double y, double z, double radius, std::uint32_t materi
     return {{x, y, z}, radius, {0, 0, 0}, material, 0};
 }
 
-// Every surface emits 1, so a vertex that reflects half has exactly 1.5.
+// Every surface emits 1, so a vertex that reflects half sends exactly 1.5.
 constexpr std::uint32_t shining = 0;
 
 Hiding closed(const std::string &name) {
@@ -124,7 +123,7 @@ std::vector<Hiding> closed_scenes() {
     return scenes;
 }
 
-// Five operations have two roundings each.
+// Five operations round twice each.
 constexpr double few_roundings = 8.0 * 0x1p-24;
 
 double largest_error(const std::vector<float> &image, const std::vector<float> &coverage, double radiance) {
@@ -135,7 +134,6 @@ double largest_error(const std::vector<float> &image, const std::vector<float> &
     return largest / radiance;
 }
 
-// Estimators alternate, because kernels take long to build.
 TEST_F(HiddenFromCamera, ClosedScenesNeitherLeakNorLoseLight) {
     std::uint32_t estimator = PT_ESTIMATOR_COSINE;
     for (const Hiding &given : closed_scenes()) {
@@ -214,8 +212,6 @@ TEST_F(HiddenFromCamera, BlackSurfacesKeepLightOut) {
         EXPECT_GT(light, 1.0) << "it is dark without them too";
     }
 }
-
-// ---- Everything else
 
 TEST_F(HiddenFromCamera, ALampLightsAsIfItWereSeen) {
     Hiding seen = with_lamps("in view");

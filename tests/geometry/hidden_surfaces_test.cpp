@@ -22,12 +22,12 @@ pt::MovingBall ball(double x, double radius, double way = 0.0) {
 TEST(LiesApart, OfBallsIsBesideOrWithin) {
     EXPECT_TRUE(lies_apart(ball(0, 1), ball(3, 1)));
     EXPECT_FALSE(lies_apart(ball(0, 1), ball(1.5, 1)));
-    EXPECT_TRUE(lies_apart(ball(0, 1), ball(0.5, 2)));  // a shell around it
-    EXPECT_FALSE(lies_apart(ball(0, 2), ball(0.5, 1))); // inside
-    EXPECT_FALSE(lies_apart(ball(0, 1), ball(1.5, 2))); // cuts
-    EXPECT_FALSE(lies_apart(ball(0, 1), ball(2, 1)));   // touches
+    EXPECT_TRUE(lies_apart(ball(0, 1), ball(0.5, 2)));  // A shell around the ball.
+    EXPECT_FALSE(lies_apart(ball(0, 2), ball(0.5, 1))); // A ball inside.
+    EXPECT_FALSE(lies_apart(ball(0, 1), ball(1.5, 2))); // The surfaces intersect.
+    EXPECT_FALSE(lies_apart(ball(0, 1), ball(2, 1)));   // The surfaces touch.
     EXPECT_TRUE(lies_apart(ball(0, 1), ball(2.001, 1)));
-    EXPECT_FALSE(lies_apart(ball(0, 1), ball(2.00001, 1))); // too close for float32
+    EXPECT_FALSE(lies_apart(ball(0, 1), ball(2.00001, 1))); // float32 cannot separate the surfaces.
 }
 
 TEST(LiesApart, OfBallsThatMoveIsSoAllTheTime) {
@@ -100,7 +100,7 @@ TEST(HiddenSurfaces, WithPathsOnBothSidesAreMetFromBoth) {
     EXPECT_TRUE(into[pt::gpu::ID_INSIDE]);
     EXPECT_FALSE(into[pt::gpu::ID_KNOWN_SIDES]);
     const pt::Features out_of = features_of(scene_of({sphere(-5, 1, Dark), sphere(0, 2, HiddenDark)}));
-    EXPECT_FALSE(out_of[pt::gpu::ID_INSIDE]); // of paths
+    EXPECT_FALSE(out_of[pt::gpu::ID_INSIDE]);
     EXPECT_FALSE(out_of[pt::gpu::ID_KNOWN_SIDES]);
     const pt::Features at_a_wall = features_of(scene_of({sphere(-5, 1, HiddenDark)}, {{{0, 0, 1}, 5.5, Dark}}));
     EXPECT_TRUE(at_a_wall[pt::gpu::ID_INSIDE]);

@@ -1,4 +1,4 @@
-// Compares rays towards a huge sphere, and rays from a few ulp off a sphere, with long double.
+// Compares two kinds of rays with long double: rays towards a huge sphere, and rays that start a few ulp off a sphere.
 #include "intersection.spv.h"
 #include "lib/kernel/gpu_scene.h"
 #include "tests/kernel/probe.h"
@@ -19,7 +19,7 @@ constexpr std::uint32_t nothing = 0xffffffffU;
 
 struct Ray {
     glm::vec3 origin;
-    float start; // 0: on no surface; 1: on the sphere's outside; -1: inside
+    float start; // 0: on no surface, 1: outside on the sphere, -1: inside
     glm::vec3 direction;
     float unused = 0.0F;
 };
@@ -40,7 +40,7 @@ struct Ball {
 
 enum class Held { AsTheSceneNeeds, ByItsCenter };
 
-// The kernel holds a ball that moves by a 32nd of its radius by its center. The ball is at rest at the rays' time.
+// The ball moves by a 32nd of its radius, and is at rest at the rays' time. The kernel stores the ball's center.
 std::vector<Met> follow(const Ball &ball, const std::vector<Ray> &rays, Held held = Held::AsTheSceneNeeds) {
     pt::Scene scene;
     scene.materials = {{{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0}};
@@ -62,7 +62,7 @@ std::vector<Met> follow(const Ball &ball, const std::vector<Ray> &rays, Held hel
     return probe.run<Met>(input, rays.size(), count, count);
 }
 
-// The ray's origin x has the height (|x - c|^2 - R^2) / (2 R).
+// A ray's origin x has the height (|x - c|^2 - R^2) / (2 R) above the sphere.
 struct Reference {
     long double height, half_chord, to_middle;
 
@@ -75,7 +75,7 @@ struct Reference {
         half_chord = std::sqrt(std::max(0.0L, radius * radius - glm::dot(across, across)));
         height = (glm::length(from_center) - radius) * (glm::length(from_center) + radius) / (2.0L * radius);
     }
-    // Divides products, because the difference of middle and half_chord would cancel.
+    // A quotient of products, because the difference of middle and half_chord would cancel.
     long double near_root(long double radius) const {
         return to_middle > 0 ? 2 * radius * height / (to_middle + half_chord) : to_middle - half_chord;
     }
@@ -84,13 +84,13 @@ struct Reference {
     }
 };
 
-// Largest errors over their bounds.
+// Largest errors, divided by their bounds.
 //
 // Let y = x + o n. A ray's origin x has the height n . x + o + k / 2 |y|^2. Let S = |x| + |o| + |y| (1 + k |y|), and c
-// be the cosine at the hit. The rounding of n, o and k and ten operations give the height an error of 8 eps S and the
-// slope one of 8 eps (1 + k |y|). The distance has the height's error / c plus the slope's error t / c, doubled for the
-// root: 16 eps (S + t (1 + k |y|)) / c. The point has the height's error there. The normal has k times that error, and
-// rounding.
+// be the cosine at the hit. Rounding n, o and k and ten operations give the height an error of 8 eps S, and the slope
+// an error of 8 eps (1 + k |y|). The distance has the height's error / c, plus the slope's error t / c. The root
+// doubles both: 16 eps (S + t (1 + k |y|)) / c. The point has the error of the height there. The normal has k times
+// this error, and rounding.
 struct Worst {
     double distance = 0, position = 0, normal = 0;
     int missed = 0, compared = 0;
@@ -108,7 +108,7 @@ Worst compare(const Ball &ball, const std::vector<Ray> &rays, const std::vector<
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const Reference reference(ball, rays[i]);
         const long double cosine = reference.half_chord / radius;
-        if (cosine < 1e-3L) // the bound excludes grazing rays
+        if (cosine < 1e-3L) // The bound is not valid for grazing rays.
             continue;
         const bool outside = rays[i].start != 0.0F ? rays[i].start > 0.0F : reference.height > 0.0L;
         const long double t = rays[i].start < 0.0F ? 2 * reference.to_middle
@@ -215,8 +215,8 @@ TEST(Intersection, CurvedPlanesAreMetFromFarAway) {
     expect_within_bounds(worst);
 }
 
-// Rays outside never hit the sphere again, and rays inside hit the far wall. If the chord is t = 2 s / k, the slope's 8
-// eps become 16 eps R = 8 eps t / s.
+// Rays that start outside never hit the sphere again. Rays that start inside hit the far wall. If the chord is t = 2 s
+// / k, the slope's error of 8 eps becomes 16 eps R = 8 eps t / s.
 TEST(Intersection, RaysThatLeaveAHugeSphereMeetItAgainFromInsideOnly) {
     for (const double radius : {1e3, 1e6, 1e9}) {
         RandomRays random(3);
@@ -254,7 +254,7 @@ bool met_by_sign(const Ball &ball, const Ray &ray) {
     return b + half_chord > 0.0F;
 }
 
-// Within 3 eps r float32 cannot tell the side. Inward rays hit either at once or at the far side.
+// Within 3 eps r float32 cannot tell the side. A ray inwards then hits the sphere either at once or at its far side.
 TEST(Intersection, NothingLeaksThroughASphereNearItsSurface) {
     RandomRays random(4);
     const Ball ball{{0, 0, 0}, 3.0};

@@ -1,4 +1,3 @@
-// Trees that reuse another tree's shape.
 #include "tests/geometry/heap_tree.h"
 
 #include "lib/kernel/prepared_scene.h"
@@ -152,7 +151,7 @@ TEST(KeptShape, IsNotForTwins) {
     EXPECT_EQ(of_twins.sphere_count(), ball_count - 1);
     EXPECT_FALSE(kept(of_twins, spheres));
     EXPECT_FALSE(kept(of_twins, with_twins));
-    // These are no twins, but only their places decide at equal distances.
+    // The spheres are no twins. At equal distances only their order decides.
     with_twins[1500].motion[0] = 0.5;
     EXPECT_EQ(tree_of(with_twins).sphere_count(), ball_count);
     EXPECT_FALSE(kept(tree, with_twins));
@@ -204,7 +203,7 @@ TEST(KeptShape, IsTakenFromTheSceneBefore) {
         return pt::PreparedScene({materials, pt::SphereSource(spheres, {}), {}}, 50, before, nobody);
     };
     Spheres spheres = heap(ball_count, 0.0);
-    spheres[100] = {{0, -1e4, 0}, 1e4 - 2, {0, 0, 0}, 0, 0}; // outlying
+    spheres[100] = {{0, -1e4, 0}, 1e4 - 2, {0, 0, 0}, 0, 0}; // an outlying sphere
     const pt::PreparedScene first = prepared(spheres, nullptr);
     const Spheres later = moved(spheres, 0.02);
     const pt::PreparedScene with_shape = prepared(later, &first);
@@ -235,7 +234,7 @@ TEST(KeptShape, HasLampsOfTheirMaterials) {
     std::vector<pt::Material> materials(3, pt::Material{glm::vec3(0.5F), glm::vec3(0), glm::vec3(0), 0});
     materials[1].emission = glm::vec3(1);
     materials[2].emission = glm::vec3(2);
-    Spheres spheres = heap(ball_count, 0.0); // of the first two
+    Spheres spheres = heap(ball_count, 0.0);
     spheres[0].material = 2;
     const auto digest = [&] { return prepared_scene_of({materials, pt::SphereSource(spheres, {}), {}}, 50).digest(); };
     const std::string before = digest();

@@ -22,7 +22,7 @@ constexpr std::array<std::uint32_t, 4> samplers = {PT_SAMPLER_RANDOM, PT_SAMPLER
 
 Given random_balls(std::uint32_t seed, std::uint32_t count, double distance) {
     Given given = random_scene(seed, 0, count, distance);
-    given.camera.aperture = 0.25 * distance; // a point 2 behind the focus spreads over a disc of radius 0.25
+    given.camera.aperture = 0.25 * distance; // A point 2 behind the focus spreads over a disc of radius 0.25.
     given.camera.focus = distance - 1.0;
     return given;
 }
@@ -92,7 +92,7 @@ TEST_F(Lens, HasTheSameBitsOfSplitsAndScale) {
     }
 }
 
-// First hits come from the pinhole at the lens's center.
+// First hits use the pinhole at the lens's center.
 TEST_F(Lens, WithoutADiameterIsAPinhole) {
     Given lens = random_balls(1, 7, 8.0);
     Given pinhole = lens;
@@ -114,7 +114,7 @@ TEST_F(Lens, WithoutADiameterIsAPinhole) {
         read(pinhole, first_hits);
         read(lens, through_lens);
         for (std::size_t i = 0; i < first_hits.size(); ++i) {
-            const bool is_equal = through_lens[i] == first_hits[i]; // true for infinite depths too
+            const bool is_equal = through_lens[i] == first_hits[i]; // also equal for infinite depths
             EXPECT_TRUE(is_equal || std::abs(through_lens[i] - first_hits[i]) <= 1e-6 * std::max(1.0F, first_hits[i]))
                 << quantity << ": " << through_lens[i] << " and " << first_hits[i];
         }

@@ -1,4 +1,4 @@
-// Huge moving spheres equal the mean of fixed times, and slow ones equal a static render. Also tests the shutter.
+// Huge moving spheres have the mean light of fixed times. Slow spheres have the light of spheres at rest.
 #include "tests/support/batch_fixture.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/support/scene_of.h"
@@ -40,8 +40,6 @@ protected:
 };
 
 constexpr uint32_t lamp_batches = 16;
-
-// ---- Huge moving balls
 
 struct FloorBall {
     double radius;
@@ -106,8 +104,8 @@ TEST_F(HugeMotion, OfALampTheOutsideIsSeen) {
         EXPECT_EQ(value, 4.0F) << "the lamp overhead fills the view";
 }
 
-// Error of the midpoint rule: a lamp 3 above gives light of about height^-2, which changes by 1/4, so (1/4)^2 * 6 / 24
-// / 32^2 = 2e-5.
+// A lamp 3 above gives light of about height^-2, which changes by 1/4. The error of the midpoint rule is therefore
+// (1/4)^2 * 6 / 24 / 32^2 = 2e-5.
 TEST_F(HugeMotion, IsTheMeanOfFrozenTimes) {
     constexpr uint32_t times = 32;
     for (const FloorBall &floor : {FloorBall{1e7, {3, 0.5, -2}}, FloorBall{1e5, {1000, 0.25, 0}}}) {
@@ -147,7 +145,7 @@ TEST_F(HugeMotion, IsRefusedWhereItIsTooLong) {
     EXPECT_EQ(pt_accumulate(context(), &info), PT_OK) << "held by its center";
 }
 
-// The width of a parallel view counts instead of the distance.
+// Parallel views have no distance, so the view's width counts.
 TEST_F(HugeMotion, IsRefusedInNarrowParallelViews) {
     const pt_material shining{{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0, 0};
     const pt_sphere globe{{0, -1e7, 0}, 1e7, {1e6, 0, 0}, 0, 0};
@@ -173,8 +171,6 @@ TEST_F(HugeMotion, IsRefusedInNarrowParallelViews) {
         EXPECT_NE(message.find("where parallel rays start"), std::string::npos) << message;
     }
 }
-
-// ---- The shutter
 
 // All numbers are exact in binary.
 TEST_F(Motion, ShutterIsTheSameAsRebasedMotion) {

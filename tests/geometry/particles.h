@@ -1,4 +1,3 @@
-// Spheres in columns.
 #pragma once
 
 #include "lib/base/error.h"
@@ -20,7 +19,7 @@ inline const std::vector<pt_material> three_materials = {{{0.5F, 0.25F, 1.0F}, {
                                                          {{1, 1, 1}, {0, 0, 0}, {0, 0, 0}, 0, 0},
                                                          {{0, 0, 0}, {0, 0, 0}, {2, 3, 4}, 0, 0}};
 
-// Valid columns, which tests change.
+// Valid columns that tests change.
 struct Particles {
     std::vector<float> center = {1, 2, 3, 4, 5, 6, -7, 8, 9, 10, 11, -0.0F};
     std::vector<float> radius = {1, 2, 0.1F, 4};

@@ -1,4 +1,3 @@
-// The start of camera rays in narrow and parallel views.
 #include "lib/kernel/prepared_scene.h"
 #include "lib/kernel/ray_start.h"
 #include "lib/scene/checked_scene.h"
@@ -49,7 +48,7 @@ pt::Sphere ball_from_camera(const glm::dvec3 &place, double radius, const glm::d
     return {camera_position + place, radius, motion, 0};
 }
 
-// The limit is a pixel whose side is 2^-14 of its distance: fov = 64 * 2^-14.
+// In the limiting view, a pixel's side is 2^-14 of its distance: fov = 64 * 2^-14.
 TEST(RayStart, IsThePinholeInWideViews) {
     EXPECT_EQ(start_of({ball_from_camera(1e6 * oblique, 1)}, {}, looking_along(oblique, 4.0e-3)), 0.0);
     EXPECT_GT(start_of({ball_from_camera(1e6 * oblique, 1)}, {}, looking_along(oblique, 3.8e-3)), 0.9e6);
@@ -106,7 +105,7 @@ TEST(RayStart, IsInsideOfWhatHoldsTheCamera) {
     EXPECT_EQ(start_of({}, {{{0, 1, 0}, -2, 0}}, camera), 0.0) << "the camera is on the plane";
 }
 
-// Five eighths of the diagonal are 1.25 of its half. For side 2 they are 1.25 sqrt(2).
+// Five eighths of the diagonal are 1.25 times half of it, or 1.25 sqrt(2) for side 2.
 TEST(RayStart, OfParallelRaysIsFiveEighthsOfTheDiagonalBeforeTheFirstSurface) {
     const pt::Camera camera = parallel_along(oblique, 2.0);
     const double before = 1.25 * std::sqrt(2.0);
@@ -137,7 +136,7 @@ TEST(RayStart, OfParallelRaysIsAtThePositionWhereNothingIsInView) {
     EXPECT_EQ(start_of({}, {{{0, 1, 0}, -1.5, 0}}, camera), 0.0) << "a plane divides the view";
 }
 
-// Finds hits by textbook formulas.
+// Textbook formulas find the hits.
 TEST(RayStart, NothingInViewIsBeforeIt) {
     std::mt19937 engine(5);
     const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(engine); };
@@ -197,8 +196,8 @@ TEST(RayStart, NothingInViewIsBeforeIt) {
     EXPECT_GT(near_misses[1], 1000) << "the bound is of use";
 }
 
-// Float32 decides sides within these margins. A list of spheres that are larger by the margin, or smaller around the
-// camera, gives the same start as the tree.
+// Within these margins float32 may see a point on either side of a surface. Lists of spheres that are larger by the
+// margin, or smaller around the camera, give the tree's start.
 TEST(RayStart, OfATreeIsThatOfItsSpheres) {
     std::mt19937 engine(7);
     const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(engine); };

@@ -1,4 +1,3 @@
-// Broken rules with their whole messages.
 #pragma once
 
 #include "lib/base/error.h"

@@ -1,4 +1,3 @@
-// One broken scene per rule, with the message.
 #include "lib/scene/checked_scene.h"
 
 #include "tests/geometry/refusals.h"
@@ -186,7 +185,7 @@ pt::Plane normalized(const pt_plane &plane) {
 TEST(Scene, NormalizesPlanesOfAnyScale) {
     const double denormal = std::numeric_limits<double>::denorm_min();
     const double largest = std::numeric_limits<double>::max();
-    // Square, sum, root and division have 4 roundings of 2^-53.
+    // Square, sum, root and division round once each by 2^-53.
     const double tolerance = 4 * 0x1p-53;
     for (const double scale : {1.0, 3.0, 1e300, 1e-300, 0x1p-1040, denormal, largest / 2}) {
         SCOPED_TRACE(scale);

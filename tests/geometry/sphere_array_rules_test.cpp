@@ -1,4 +1,3 @@
-// One broken array per rule, with the message.
 #include "tests/geometry/particles.h"
 #include "tests/geometry/refusals.h"
 #include "tests/support/expected_error.h"
@@ -102,7 +101,7 @@ TEST(SphereArrays, BrokenRulesOfValuesAreNamed) {
           "sphere_arrays[0].radius[0] = -1: must be > 0"}});
 }
 
-const void *const not_there = reinterpret_cast<const void *>(std::uintptr_t{64}); // reading it would crash
+const void *const not_there = reinterpret_cast<const void *>(std::uintptr_t{64}); // Reading this address would crash.
 
 TEST(SphereArrays, BrokenRulesOfCountsAreNamed) {
     expect_refusals<Particles>(

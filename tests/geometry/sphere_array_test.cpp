@@ -1,4 +1,3 @@
-// Columns and structs give equal scenes. Tests counts, struct versions and colors, too.
 #include "lib/scene/checked_scene.h"
 #include "lib/scene/scene.h"
 #include "lib/scene/sphere_source.h"
@@ -25,7 +24,7 @@ namespace sphere_arrays {
 
 namespace {
 
-// The allocation ends with the last element, so that reads beyond it are detected.
+// The allocation ends with the last element, so sanitizers detect reads beyond it.
 class ColumnCopy {
 public:
     template <typename Number>
@@ -231,7 +230,7 @@ TEST(SphereArrays, EqualColorsShareAMaterial) {
         array.color = {bytes.data(), 3, PT_TYPE_SRGB8};
     };
     const pt::Scene scene = particles.validated();
-    // There are 12^3 colors of two materials. White exists already.
+    // Two materials have 12^3 colors each. White is already among them.
     EXPECT_EQ(scene.materials.size(), 2 * 12 * 12 * 12U);
     for (std::uint32_t i = 0; i < count; ++i) {
         const pt::Material &material = scene.materials[scene.spheres[i].material];
@@ -270,7 +269,6 @@ TEST(SphereArrays, ColorsMayBeOfAnyType) {
     EXPECT_EQ(particles.outcome(), "accepted");
 }
 
-// Follows IEC 61966-2-1 to a few roundings of double.
 TEST(Srgb, IsDecodedAsTheStandardSays) {
     for (int byte = 0; byte < 256; ++byte) {
         const double encoded = byte / 255.0;

@@ -1,4 +1,4 @@
-// The shape of a tree, within the kernel's stack for any input.
+// Tests the shape of a tree, which must fit into the kernel's stack for any input.
 #include "lib/tree/sphere_order.h"
 #include "shaders/gpu_layout.h"
 
@@ -130,7 +130,7 @@ TEST(SphereOrder, LeavesTheFirstOfTwins) {
     expect_well_linked(shape);
 }
 
-// Bits are slow to read. They are needed once for the hash, and again for spheres with equal hashes.
+// Reading bits is slow. They are read once for the hash, and again for spheres with equal hashes.
 TEST(SphereOrder, ReadsTheBitsOfASphereThreeTimesAtTheMost) {
     for (const bool are_twins : {false, true})
         for (const Kind &kind : kinds()) {
@@ -163,7 +163,7 @@ TEST(SphereOrder, TellsHowFarItIs) {
         progress.enter(0.5, 2.0 * many);
         pt::tree_shape(items_of(many, kind.ball), own_number, progress);
         EXPECT_GT(told.shares.size(), 5U);
-        progress.add(0.0, std::size_t{1} << 30); // forces a report
+        progress.add(0.0, std::size_t{1} << 30); // enough to force a report
         EXPECT_EQ(told.shares.back(), 0.25);
         EXPECT_TRUE(std::ranges::is_sorted(told.shares));
     }

@@ -1,4 +1,3 @@
-// The order of spheres from structs and columns.
 #include "lib/scene/scene.h"
 #include "lib/scene/sphere_source.h"
 #include "tests/geometry/particles.h"

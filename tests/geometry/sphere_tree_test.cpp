@@ -1,4 +1,4 @@
-// The tree buffer: boxes, lamps, twins, and conservative statements about cameras.
+// Tests the tree buffer: boxes, lamps, twins, and bounds of distances from cameras.
 #include "tests/geometry/heap_tree.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ TEST(SphereTree, BoxesHoldTheirSpheresAtAllTimes) {
     }
 }
 
-// Radii and ways of up to 2^30 steps round by half of 2^-23.
+// Radii and motions of up to 2^30 steps have a rounding error of half of 2^-23.
 TEST(SphereTree, StaysWithinReach) {
     for (const double scale : {1e-18, 1.0, 1e17})
         for (const double motion : {0.0, 1.0}) {
@@ -73,7 +73,7 @@ TEST(SphereTree, KeepsTheFirstOfTwins) {
     const pt_sphere back{{5.75, 0, -3}, 0.1, {-0.25, -0.0, 0}, 0, 0};
     for (int i = 0; i < 5; ++i) {
         spheres.push_back(forth);
-        spheres.back().center[0] += i * 1e-12; // the same place
+        spheres.back().center[0] += i * 1e-12; // too little to change the stored position
         spheres.back().material = i == 0 ? 1 : 0;
         spheres.push_back(back);
         spheres.back().motion[2] = i % 2 == 0 ? 0.0 : -0.0;
@@ -166,7 +166,7 @@ TEST(SphereTree, HasWaysIfWhatIsLeftOutMoves) {
     EXPECT_TRUE(has_ways(tree_with(one, spheres, {0, 100})));
 }
 
-// A sphere has 16 bytes and 4 of material. A node of 48 bytes has three spheres, or two with empty children.
+// A sphere takes 16 bytes, and 4 of material. A node of 48 bytes has three spheres, or two with empty children.
 TEST(SphereTree, TakesNoMoreThan48BytesASphere) {
     std::vector<pt_sphere> spheres = heap(100'000, 0.0);
     for (pt_sphere &sphere : spheres)
@@ -189,8 +189,8 @@ TEST(SphereTree, TakesNoMoreThan48BytesASphere) {
     EXPECT_EQ(colored.sphere_words()[frame.first_color + 777].z, 723U | 723U << 10 | 723U << 20);
 }
 
-// A sphere is at (p - camera) step + shift. The error is the rounding of shift, which is about the distance of a far
-// camera.
+// A sphere lies at (p - camera) step + shift. The error is the rounding of shift, which is about as long as the
+// distance of a far camera.
 TEST(SphereTree, FramesPutSpheresWhereTheyAre) {
     const std::vector<pt_sphere> spheres = heap(100, 0.0);
     const pt::SphereTree tree = tree_of(spheres);

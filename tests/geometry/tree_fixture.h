@@ -1,4 +1,4 @@
-// Two contexts. One has every sphere in a tree, and the other has no tree.
+// A context with every sphere in a tree, and one without a tree.
 #pragma once
 
 #include "tests/support/context_fixture.h"

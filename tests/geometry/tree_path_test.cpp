@@ -21,8 +21,8 @@ pt::PreparedScene all_in_a_tree(const pt::Scene &scene) {
     return prepared_scene_of({scene.materials, {spheres, {}}, scene.planes}, 1);
 }
 
-// The scenes have one lamp, few lamps that are each sampled, more lamps than branches, or many. The paths have one
-// vertex, one direction, or roulette.
+// The scenes have one lamp, a few lamps that are each sampled, more lamps than branches, or many lamps. The paths have
+// one vertex, one direction, or Russian roulette.
 TEST(WalkSteps, TakeTheSamplesOfWholeWalks) {
     TreeScenes scenes(23);
     const bool is_exact = probe_device().info().kind == PT_DEVICE_CPU;

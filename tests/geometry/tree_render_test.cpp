@@ -1,4 +1,3 @@
-// A dark ball within a lamp, in a tree.
 #include "tests/geometry/tree_fixture.h"
 #include "tests/support/render_image.h"
 #include "tests/support/scene_of.h"
@@ -29,7 +28,7 @@ struct Balls {
         for (std::uint32_t i = 0; i < count; ++i) {
             spheres.push_back(
                 {{4 * share() - 2, 3 * share() - 2, 4 * share() - 2}, 0.15 + 0.1 * share(), {0, 0, 0}, 0, 0});
-            random.discard(5); // these numbers need a tolerance of 1e-5, others 4e-5
+            random.discard(5); // these numbers pass with 1e-5, others need 4e-5
         }
         spheres[60] = {{-2, 2.5, 1}, 0.3, {0, 0, 0}, 0, 0};
     }

@@ -1,4 +1,4 @@
-// Random scenes of many spheres. Each kind is difficult for a tree.
+// Random scenes of many spheres. Each kind is difficult for a tree in another way.
 #pragma once
 
 #include "lib/scene/camera.h"
@@ -26,7 +26,7 @@ class TreeScenes {
 public:
     explicit TreeScenes(std::uint32_t seed) : engine_(seed) {}
 
-    // The kinds take turns.
+    // Kinds of scenes alternate.
     pt::Scene next(std::size_t most) {
         const auto count = static_cast<std::size_t>(std::exp(uniform(0.0, std::log(static_cast<double>(most) + 0.99))));
         kind_ = (kind_ + 1) % kind_count;
@@ -86,7 +86,7 @@ private:
             sphere.radius = 0.25;
             break;
         }
-        case 5: // distances over decades
+        case 5: // distances from tiny to huge
             sphere.center *= std::pow(10.0, uniform(0.0, 3.0));
             break;
         case 6:

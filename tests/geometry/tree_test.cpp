@@ -1,4 +1,4 @@
-// Compares walks through a tree with tests of every sphere. PT_TEST_TREE_SCENES is the number of scenes.
+// Compares walks through a tree with tests of every sphere. PT_TEST_TREE_SCENES sets the number of scenes.
 #include "tests/geometry/tree_scenes.h"
 #include "tests/kernel/kernel_render.h"
 #include "tests/support/checked_scene_of.h"
@@ -18,7 +18,7 @@ using FilmWords = KernelRender::FilmWords;
 
 std::size_t scene_count() {
     const char *const wanted = std::getenv("PT_TEST_TREE_SCENES");
-    return wanted ? std::stoul(wanted) : 8; // one of each kind
+    return wanted ? std::stoul(wanted) : 8; // one scene of each kind
 }
 
 std::size_t most_spheres() {
@@ -26,7 +26,7 @@ std::size_t most_spheres() {
 }
 
 constexpr std::uint32_t word_of_sides[6][2] = {{1, 2}, {1, 3}, {2, 0},
-                                               {2, 1}, {2, 2}, {2, 3}}; // low x, y, z, then high
+                                               {2, 1}, {2, 2}, {2, 3}}; // low x, y, z, then high x, y, z
 
 template <typename Change>
 void change_boxes(std::vector<glm::uvec4> &tree, std::uint32_t node_count, Change &&change) {
@@ -39,10 +39,10 @@ void change_boxes(std::vector<glm::uvec4> &tree, std::uint32_t node_count, Chang
     }
 }
 
-// Boxes cover the whole grid, so a walk tests every sphere.
+// Boxes that cover the whole grid make a walk test every sphere.
 void open_boxes(std::vector<glm::uvec4> &tree, std::uint32_t node_count) {
     change_boxes(tree, node_count, [](glm::uvec4 &head, std::uint32_t *const sides[6]) {
-        constexpr std::uint32_t exponents = 23 | 23 << 5 | 23 << 10; // 255 times 2^23 steps from the lowest place
+        constexpr std::uint32_t exponents = 23 | 23 << 5 | 23 << 10; // boxes reach 255 * 2^23 steps
         constexpr std::uint32_t lowest = ~pt::gpu::TREE_REACH + 1;
         head = {lowest, lowest, lowest, (head.w & ~0x7fffU) | exponents};
         for (int i = 0; i < 6; ++i)
@@ -67,7 +67,7 @@ struct Compared {
 };
 
 Compared compare(const pt::PreparedScene &prepared, const pt::Camera &camera) {
-    // Tests of every sphere use up the 65,535 loop trips that some drivers allow.
+    // Without boxes, the spheres use up the 65,535 loop rounds that some drivers allow.
     const std::size_t spheres = prepared.tree->sphere_count();
     KernelRender render(pt::gpu_scene(prepared, camera, KernelRender::settings(spheres > 100 ? 2 : 4)));
     render.take(spheres > 400 ? 2 : spheres > 40 ? 4 : 8);
@@ -89,7 +89,7 @@ Compared compare(const pt::Scene &scene, const pt::Camera &camera) {
 
 Compared compare_with_capsules(const pt::Scene &scene, const pt::Camera &camera) {
     std::vector<pt_sphere> spheres;
-    std::vector<pt_sphere> capsules; // `motion` is the other end
+    std::vector<pt_sphere> capsules;
     for (const pt_sphere &sphere : caller_spheres(scene.spheres)) {
         const bool is_swept = sphere.material != 0 && spheres.size() > capsules.size();
         (is_swept ? capsules : spheres).push_back(sphere);
@@ -152,8 +152,8 @@ pt::Camera far_away(double tan_half_fov) {
     return {{0.1, 0.2, 4e5}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, tan_half_fov, 0.0, 1.0};
 }
 
-// The camera is 10^5 times the scene's size away. A narrow view rounds depths to few values. A wide one sees the
-// horizon.
+// The camera's distance is 10^5 times the scene's size. A narrow view rounds depths to few values. A wide view includes
+// the horizon.
 TEST(Tree, RaysFromFarAwayFindWhatTestingEverySphereFinds) {
     TreeScenes scenes(9);
     const pt::Scene scene = heap_on_a_floor(scenes);
@@ -161,8 +161,8 @@ TEST(Tree, RaysFromFarAwayFindWhatTestingEverySphereFinds) {
         EXPECT_TRUE(compare(scene, far_away(tan_half_fov)).same) << tan_half_fov;
 }
 
-// Compares with a tree that has the shape for the reflected spheres. Its boxes are equally good, but in reverse order.
-// Returns nothing if the trees are equal or no shape was reused.
+// Compares with a tree that keeps the shape of the reflected spheres' tree. Its boxes are as good, but in reverse
+// order. Returns nothing if the trees are equal or no shape was kept.
 std::optional<bool> is_seen_alike(const pt::Scene &scene, const pt::Camera &camera) {
     const std::vector<pt_sphere> spheres = caller_spheres(scene.spheres);
     std::vector<pt_sphere> reflected = spheres;

@@ -1,4 +1,4 @@
-// Surfaces that are given twice, exactly or nearly, have the light of one.
+// Surfaces that are given twice, exactly or nearly, have the light of a single one.
 #include "lib/scene/checked_scene.h"
 #include "tests/invariance/invariance_scene.h"
 #include "tests/kernel/kernel_render.h"
@@ -39,8 +39,8 @@ protected:
         return {moments.mean, std::sqrt(moments.variance / batch_count)};
     }
 
-    // `tolerance` is the relative change of light by the geometry. Two means of n batches have the bound of one mean of
-    // 2 n - 1 batches.
+    // `tolerance` is the relative change of light because of the displacement. The difference of two means of n batches
+    // has the bound of one mean of 2 n - 1 batches.
     void expect_light(const Estimate &expected, const InvarianceScene &scene, std::uint32_t path_length,
                       double tolerance) {
         const Estimate found = mean_of(scene, path_length, 200);
@@ -100,7 +100,7 @@ TEST_F(RenderedTwins, SendTheirLightOnce) {
             SCOPED_TRACE(share);
             InvarianceScene twice = scene_of_named(repeated);
             shift_twins(twice, share);
-            // A lamp that is displaced by a share of its radius sends at most that share more light.
+            // A lamp that is displaced by a fraction of its radius sends at most that fraction more light.
             expect_light(once, twice, path_length, 1e-6 + 2 * share);
         }
     }

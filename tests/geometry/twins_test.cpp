@@ -46,7 +46,6 @@ std::vector<std::uint32_t> distinct_planes(const std::vector<Plane> &planes) {
     return materials;
 }
 
-// The place is relative to the camera.
 Sphere ball(const glm::dvec3 &place, double radius, const glm::dvec3 &motion = {0, 0, 0}) {
     return {viewpoint + place, radius, motion, plain};
 }

@@ -12,7 +12,7 @@ struct Estimate {
     double standard_error;
 };
 
-// Means of the red channel for each batch.
+// For each batch, the red means of all blocks.
 using Batches = std::vector<std::vector<double>>;
 
 inline Estimate estimate_over(const Batches &batches, std::span<const std::size_t> pixels) {
@@ -31,15 +31,15 @@ inline Estimate estimate_of_pixel(const Batches &batches, std::size_t pixel) {
     return estimate_over(batches, std::span(&pixel, 1));
 }
 
-// Two-sided quantile of Student's t. The error of Wallace's approximation (Ann. Math. Statist. 30, 1959) is at most
-// 0.02 from 8 degrees of freedom on.
+// Two-sided quantile of Student's t by Wallace's approximation (Ann. Math. Statist. 30, 1959). From 8 degrees of
+// freedom on, its error is at most 0.02.
 inline double student_bound(double false_alarm, std::size_t batch_count) {
     const double degrees = static_cast<double>(batch_count) - 1.0;
     const double z = statistics::normal_quantile(0.5 * false_alarm) * (8.0 * degrees + 3.0) / (8.0 * degrees + 1.0);
     return std::sqrt(degrees * std::expm1(z * z / degrees));
 }
 
-// The deviation in standard errors. The relative rounding error of 1e-6 stands for some dozens of roundings by 2^-24.
+// The deviation in standard errors. The relative rounding error of 1e-6 allows for some dozen roundings by 2^-24.
 inline double deviation(const Estimate &estimate, double expected) {
     const double rounding = 1e-6 * std::abs(expected);
     return (estimate.mean - expected) / std::hypot(estimate.standard_error, rounding);
@@ -52,8 +52,8 @@ protected:
         ASSERT_EQ(pt_set_camera(context(), &camera), PT_OK) << pt_last_error(context());
     }
 
-    // Plain Halton ignores seeds, so its batches are successive samples. The errors of these batches partly cancel, so
-    // the standard error is an upper bound.
+    // Plain Halton ignores seeds, so its batches are successive samples. Their errors partly cancel, so the standard
+    // error is an upper bound.
     Batches render_batches(pt_render render, uint32_t batch_count, uint32_t samples) {
         Batches batches;
         for (uint32_t batch = 0; batch < batch_count; ++batch) {

@@ -1,4 +1,4 @@
-// Sequences of pt.h calls. A failing call fails the test.
+// Sequences of pt.h calls. If a call fails, so does the test.
 #pragma once
 
 #include "tests/support/coursework_scene.h"

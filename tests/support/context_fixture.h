@@ -1,4 +1,4 @@
-// Tests pt.h. Warnings of the library and of the validation layer are failures. PT_TEST_DEVICE sets
+// A fixture for pt.h. Warnings of the library or of the validation layer are failures. PT_TEST_DEVICE sets
 // pt_create_info.device. PT_TEST_NO_VALIDATION removes the layer, for leak checks.
 #pragma once
 

@@ -16,8 +16,8 @@
 class DoublePathTracer {
 public:
     struct Estimate {
-        double mean = 0.0;     // over the components
-        double variance = 0.0; // of the mean
+        double mean = 0.0;     // mean over the components
+        double variance = 0.0; // variance of the mean
     };
 
     DoublePathTracer(const pt_scene &scene, const pt_camera &camera, std::uint32_t seed) :
@@ -227,7 +227,7 @@ private:
         return opacity.data == nullptr || share() < *at<float>(opacity, row);
     }
 
-    // The side and the balls are entered at the smallest distance, and left at the largest.
+    // A ray enters the side or a ball at the smallest distance, and leaves at the largest.
     static void meet_capsule(Hit &nearest, const glm::dvec3 &origin, const glm::dvec3 &direction,
                              const pt_sphere_array &array, std::uint32_t row) {
         const double *const a = at<double>(array.center, row);
@@ -274,6 +274,6 @@ private:
     const pt_scene &scene_;
     pt_camera camera_;
     std::mt19937_64 engine_;
-    std::vector<std::uint32_t> lamps_; // spheres that emit
+    std::vector<std::uint32_t> lamps_;
     glm::dvec3 position_, forward_, right_, up_;
 };

@@ -1,4 +1,4 @@
-// Films of invented samples, which are added one by one.
+// Films of invented samples that are added one by one.
 #pragma once
 
 #include "lib/base/digest.h"
@@ -49,7 +49,6 @@ inline std::uint64_t mixed(std::uint64_t number) {
     return number ^ (number >> 31);
 }
 
-// One of 16 samples is rejected.
 inline bool is_rejected(const Pixel &pixel, std::uint32_t index) {
     return mixed(pixel.first * 7919U + pixel.second * 104729U + index) % 16 == 0;
 }
@@ -62,7 +61,6 @@ inline Wide value_of(const Pixel &pixel, std::uint32_t index, std::uint32_t chan
     return Wide{mixed(key | channel)} << (mixed(key + 3) % 20);
 }
 
-// `at` is the pixel's index in its tile.
 inline void set_pixel(pt::PixelSums &sums, std::size_t at, const Pixel &pixel, const std::set<std::uint32_t> &indices,
                       std::uint64_t split) {
     Wide totals[2][3] = {};
@@ -104,7 +102,7 @@ inline Bytes film_of(const pt::FilmIdentity &identity, const std::vector<pt::Rec
     return bytes;
 }
 
-// Joins equal pixels of a row, then equal runs of successive rows.
+// Joins equal pixels of a row to runs, then equal runs of successive rows.
 inline std::vector<pt::Rectangle> tiles_of(const Samples &samples) {
     std::vector<pt::Rectangle> tiles;
     const auto at = [&](std::int64_t row, std::int64_t column) -> const std::set<std::uint32_t> * {

@@ -19,7 +19,7 @@ namespace first_hits {
 using Real = long double;
 using Vector = glm::vec<3, Real>;
 
-constexpr Real rounding = 0x1p-24L; // of float32
+constexpr Real rounding = 0x1p-24L; // float32's unit roundoff
 constexpr Real nowhere = std::numeric_limits<Real>::infinity();
 
 inline Vector vector_of(const double (&v)[3]) {
@@ -27,41 +27,41 @@ inline Vector vector_of(const double (&v)[3]) {
 }
 
 struct Ray {
-    Vector direction; // unit
+    Vector direction; // unit vector
     Real time;
     Vector start;
-    Vector origin{0.0L}; // from the camera
-    Vector spread{0.0L}; // sizes of the terms of `origin`
+    Vector origin{0.0L}; // relative to the camera
+    Vector spread{0.0L}; // sizes of the summed terms
 };
 
 struct Meeting {
     Real distance = nowhere;
-    Real tolerance = 0.0L;        // of the distance
-    bool is_uncertain = false;    // almost touching
-    Vector normal{0.0L};          // facing the camera
-    Real normal_tolerance = 0.0L; // of each component
+    Real tolerance = 0.0L;        // tolerance of the distance
+    bool is_uncertain = false;    // almost touching, so undecided
+    Vector normal{0.0L};          // faces the camera
+    Real normal_tolerance = 0.0L; // tolerance of each component
     std::uint32_t object = PT_NO_OBJECT;
 };
 
-// All errors are in terms of u, the unit roundoff of float32. A direction errs by 4 u across (two products and sums for
-// each component), and in its length.
+// All errors are in terms of u, the unit roundoff of float32. A direction has an error of 4 u across (two products and
+// sums for each component), and as much in its length.
 //
-// Let a sphere have center c and radius r. The center errs by u |c|, and its projection b on the ray by 8 u |c|. The
-// ray's distance l from the center also errs by 8 u |c|. The half chord h = sqrt(r^2 - l^2) errs by (8 u |c| + 2 u r) /
-// cosine with cosine = h / r. The tolerance is twice this error. The difference l - r errs by 8 u |c| + 2 u r. Within
-// twice this error it is undecided whether the ray hits.
+// Let a sphere have center c and radius r. The center has an error of u |c|, and its projection b on the ray one of 8 u
+// |c|. So has the ray's distance l from the center. The half chord h = sqrt(r^2 - l^2) has an error of (8 u |c| + 2 u
+// r) / cosine with cosine = h / r. The tolerance is twice this error. The difference l - r has an error of 8 u |c| + 2
+// u r. Within twice this error it is undecided whether the ray hits.
 //
 // A flat sphere of curvature k at height h is hit at 2 h / q with q = s + sqrt(s^2 - 2 k h) and slope s. The errors are
 // u for h, 4 u for s, and (4 u s + 4 u) / cosine for the root, and q >= cosine. The relative tolerance is 16 u /
-// cosine^2 for the root and 8 u for the other terms. Within 64 u of touching (s^2 against 2 k h) it is undecided
-// whether the ray hits. The far side is at q / k. A plane has k = 0.
+// cosine^2 for the root and 8 u for the other terms. If s^2 and 2 k h differ by less than 64 u, it is undecided whether
+// the ray hits. The far side is at q / k. A plane has k = 0.
 //
-// Parallel rays start at origin = a right - b up. The origin errs by 5 u of the sizes of both terms (scale, place,
-// vector, product, sum), in total o. The tolerance has 8 u o for the origin, and as much for the subtraction. A height
-// n . origin + offset errs by 9 u o |n| and 2 u of the offset, so its tolerance is 16 u o / cosine.
+// Parallel rays start at origin = a right - b up. The origin has an error of 5 u of the sizes of both terms (scale,
+// place, vector, product, sum), in total o. The tolerance is 8 u o for the origin, and as much for the subtraction. A
+// height n . origin + offset has an error of 9 u o |n| and 2 u of the offset, so its tolerance is 16 u o / cosine.
 //
 // In narrow views, |c| and distances are measured from the start of the rays. The grid of a tree displaces centers by
-// up to `astray`. If the camera is nearer than this to a sphere's surface, its side is undecided.
+// up to `astray`. If the camera is nearer to a sphere's surface than this, its side is undecided.
 inline Meeting meet_sphere(const pt_sphere &sphere, const Vector &camera, const Ray &ray, Real time, bool is_flat,
                            Real astray) {
     const Vector center = vector_of(sphere.center) + time * vector_of(sphere.motion) - camera - ray.origin;
@@ -90,7 +90,7 @@ inline Meeting meet_sphere(const pt_sphere &sphere, const Vector &camera, const 
     meeting.tolerance = is_flat ? way * rounding * (8.0L + 16.0L / (cosine * cosine))
                                 : rounding * (16.0L * reach + (16.0L * reach + 4.0L * r) / cosine) + astray / cosine;
     meeting.normal = height > 0.0L ? outward : -outward;
-    // The error of the point divided by r, and eight roundings.
+    // The error of the point divided by r, plus eight roundings.
     meeting.normal_tolerance = (meeting.tolerance + 16.0L * rounding * across) / r + 8.0L * rounding;
     return meeting;
 }
@@ -121,7 +121,7 @@ struct View {
     std::uint32_t width, height;
     Real shutter_open, shutter_close;
     Real start_distance = 0.0L;
-    Real tree_step = 0.0L; // of the spheres' grid
+    Real tree_step = 0.0L; // step of the spheres' grid
 
     View(const pt_camera &camera, const pt_render &render) :
         position(vector_of(camera.position)),
@@ -138,7 +138,6 @@ struct View {
             focal_pixels = render.height / (2.0L * std::tan(static_cast<Real>(camera.vertical_fov) / 2.0L));
     }
 
-    // `share` is a fraction of the shutter's time.
     Ray ray(std::uint32_t column, std::uint32_t row, Real x, Real y, Real share) const {
         const Real to_right = column + x - width / 2.0L;
         const Real downwards = row + y - height / 2.0L;
@@ -152,7 +151,7 @@ struct View {
     }
 };
 
-// Uses the library's own rule. Lamps are spheres with a center up to a radius of 65536 times their height.
+// Follows the library's own rule. Lamps are spheres, unless the radius exceeds 65536 times the height of the center.
 inline bool is_held_as_plane(const pt_sphere &sphere, const pt_material &material, const View &view) {
     const auto vector = [](const double(&v)[3]) { return glm::dvec3(v[0], v[1], v[2]); };
     pt::Camera start{};
@@ -168,7 +167,7 @@ inline bool is_seen(const pt_scene &scene, std::uint32_t material) {
     return scene.materials[material].flags != PT_MATERIAL_HIDDEN_FROM_CAMERA;
 }
 
-// Returns no value if float32 may find another surface, or none.
+// Returns no value if float32 may find another surface, or no surface.
 inline std::optional<Meeting> first_met(const pt_scene &scene, const View &view, const Ray &ray) {
     std::vector<Meeting> met;
     for (std::uint32_t i = 0; i < scene.sphere_count; ++i) {

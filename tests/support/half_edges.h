@@ -1,4 +1,3 @@
-// All float16 numbers >= 0 and the midpoints between them, exactly as floats.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +6,7 @@
 
 constexpr std::uint32_t half_infinity = 0x7c00;
 
-// Infinity is replaced by the number after the largest.
+// For infinity, returns the number after the largest finite one.
 inline float float_of_half(std::uint32_t bits) {
     const std::uint32_t exponent = bits >> 10;
     const std::uint32_t fraction = bits & 0x3ff;

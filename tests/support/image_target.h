@@ -1,4 +1,3 @@
-// A pt_image for floats, by default without gaps.
 #pragma once
 
 #include <pt/pt.h>

@@ -12,7 +12,7 @@ namespace pt {
 struct ImageValues {
     std::vector<float> mean;
     std::vector<float> standard_error;
-    std::vector<float> lesser; // of both parts
+    std::vector<float> lesser;
 };
 
 inline void add_tiles(ErrorEstimator &estimator, std::size_t width, const ImageValues &image,

@@ -1,4 +1,4 @@
-/* Keeps modules loaded, since leak checks cannot reach the static variables of an unloaded Vulkan driver. */
+/* Keeps modules loaded. Leak checks cannot reach the static variables of a Vulkan driver that is unloaded. */
 int dlclose(void *handle);
 
 int dlclose(void *handle) {

@@ -20,8 +20,8 @@ inline constexpr glm::uvec2 picture(24, 16);
 inline constexpr glm::uvec2 block(8, 8);
 inline constexpr std::uint32_t image_count = 12;
 inline constexpr std::uint32_t samples_of_image = 32;
-// The limit for deviations, in standard errors from 12 images. One of 72 blocks exceeds it in one of 330 runs. Seeds
-// are fixed.
+// The limit of deviations, in standard errors from 12 images. In one of 330 runs, one of 72 blocks exceeds the limit.
+// Seeds are fixed.
 inline constexpr double most_errors = 6.5;
 
 struct Given {
@@ -65,7 +65,7 @@ struct Given {
         return array;
     }
 
-    mutable pt_sphere_array array_{}; // for scene()
+    mutable pt_sphere_array array_{};
 };
 
 inline Given scaled(Given given, double by) {
@@ -169,7 +169,7 @@ inline double mean_of_block(const std::vector<float> &image, glm::uvec2 first) {
 
 struct Deviation {
     double of_image = 0.0;
-    double largest = 0.0; // largest magnitude
+    double largest = 0.0;
 };
 
 class LightInDouble : public ContextFixture {
@@ -206,7 +206,7 @@ protected:
         return render_image(context(), given.scene(), given.camera, picture_of(PT_SAMPLER_SOBOL), samples);
     }
 
-    // Short submissions, two devices and another unit of length must keep the bits. Negative control: one sample fewer.
+    // Short submissions, two devices or another unit of length must keep the bits. Negative control: one sample fewer.
     void expect_the_same_bits_of_splits_and_scale(const Given &given) {
         const Context hurried = create_context([](pt_create_info &info) { info.submit_milliseconds = 1; });
         const Context shared = create_context(
@@ -226,7 +226,7 @@ private:
         const double black = 1e-12;
         const double deviation =
             (found.mean - exact.mean) / std::sqrt(found.variance / image_count + exact.variance + black);
-        return std::isfinite(deviation) ? deviation : std::numeric_limits<double>::infinity(); // NaN must fail
+        return std::isfinite(deviation) ? deviation : std::numeric_limits<double>::infinity(); // NaN must fail.
     }
 };
 

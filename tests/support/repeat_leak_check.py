@@ -1,4 +1,4 @@
-"""Runs a command up to three times, while LeakSanitizer itself crashes ("Tracer caught signal 11" of GCC 12)."""
+"""Runs a command up to three times, because LeakSanitizer itself may crash ("Tracer caught signal 11" of GCC 12)."""
 
 import subprocess
 import sys

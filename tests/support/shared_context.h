@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 
-// Uses each device devices_of_each times. `like_gpus` treats CPUs as GPUs.
+// Uses each device devices_of_each times. `like_gpus` uses CPUs as if they were GPUs.
 inline pt_result create_shared(uint32_t devices_of_each, const pt_create_info &info, pt_context **context,
                                bool like_gpus = false, std::optional<uint32_t> adaptive_from = std::nullopt) {
     return pt::guard(pt::thread_last_error, [&] {
