@@ -1,4 +1,3 @@
-// pt_get_accuracy() through pt.h.
 #include "lib/kernel/accuracy.h"
 #include "tests/api/api_fixture.h"
 

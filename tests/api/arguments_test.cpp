@@ -1,4 +1,3 @@
-// Calls without a context, and null pointers.
 #include "tests/api/api_fixture.h"
 #include "tests/api/every_call.h"
 
@@ -12,8 +11,6 @@
 namespace api {
 
 namespace {
-
-// ---- No context
 
 TEST(Api, GetDevicesNeedsCount) {
     EXPECT_EQ(pt_get_devices(nullptr, nullptr), PT_ERROR_INVALID_ARGUMENT);
@@ -45,7 +42,6 @@ TEST(Api, GetDevicesWritesAtMostCount) {
     EXPECT_EQ(std::memcmp(&devices[count], &untouched, sizeof untouched), 0);
 }
 
-// Returns "created", or "result name: message".
 std::string create_outcome(const pt_create_info *info) {
     pt_context *context = reinterpret_cast<pt_context *>(&context);
     const pt_result result = pt_create(info, &context);
@@ -96,8 +92,6 @@ TEST(Api, CreateTellsWhyNoDeviceFits) {
 TEST(Api, EveryFunctionRefusesANullContext) {
     expect_every_call(outcomes_of_every_call(nullptr), "PT_ERROR_INVALID_ARGUMENT: context = NULL: must not be NULL");
 }
-
-// ---- Pointers
 
 TEST_F(ApiTest, RefusesNullPointers) {
     set_all();

@@ -1,4 +1,3 @@
-// The contract of pt.h: states, messages, progress, and failed calls that change nothing.
 #include "tests/api/api_fixture.h"
 #include "tests/support/image_target.h"
 
@@ -14,8 +13,6 @@
 namespace api {
 
 namespace {
-
-// ---- States
 
 TEST_F(ApiTest, AccumulateNeedsEverySetting) {
     const pt_scene scene = valid_scene();
@@ -106,8 +103,6 @@ TEST_F(ApiTest, TellsItsDevice) {
     }));
 }
 
-// ---- Transactions
-
 TEST_F(ApiTest, FailedCallsChangeNothing) {
     set_all();
     accumulate(3);
@@ -149,8 +144,6 @@ TEST_F(ApiTest, FailedCallsChangeNothing) {
     expect_image(5);
 }
 
-// ---- Messages
-
 TEST_F(ApiTest, MessageStaysUntilTheNextFailure) {
     EXPECT_EQ(message(), "");
     EXPECT_EQ(pt_set_scene(context(), nullptr), PT_ERROR_INVALID_ARGUMENT);
@@ -170,8 +163,6 @@ TEST_F(ApiTest, MessagesBelongToTheirContext) {
     EXPECT_STREQ(pt_last_error(other.get()), "");
     EXPECT_STREQ(pt_last_error(nullptr), "context = NULL: must not be NULL");
 }
-
-// ---- Progress
 
 struct Progress {
     std::vector<double> fractions;
@@ -226,7 +217,7 @@ TEST_F(ApiTest, TheErrorIsKnownFrom16Samples) {
     expect_image(116);
 }
 
-// The exception does not cross the C boundary.
+// Exceptions must not cross the C boundary.
 TEST_F(ApiTest, ProgressThatThrowsIsAnErrorThatKeepsTheFilmWhole) {
     set_all();
     const pt_accumulate_info info{sizeof info,

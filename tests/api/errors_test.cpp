@@ -1,4 +1,3 @@
-// pt_get_broken_rule beside pt_last_error.
 #include "tests/api/api_fixture.h"
 #include "tests/support/scene_of.h"
 
@@ -20,7 +19,6 @@ pt_broken_rule rule_of(const pt_context *context, uint32_t index) {
     return rule;
 }
 
-// Builds the message as pt/errors.h describes.
 std::string text_of(const pt_broken_rule &rule) {
     std::ostringstream text;
     text << rule.subject;
@@ -153,7 +151,7 @@ TEST_F(ErrorsTest, StayAsLongAsTheMessage) {
     EXPECT_EQ(rule_of(context(), 0).subject, before.subject);
     std::vector<float> pixels(width * height * 3);
     const pt_image image = tight_image(pixels);
-    EXPECT_EQ(pt_readback(context(), &image), PT_ERROR_INVALID_STATE); // about no field
+    EXPECT_EQ(pt_readback(context(), &image), PT_ERROR_INVALID_STATE); // an error of no field
     EXPECT_EQ(pt_get_broken_rule(context(), 0, nullptr), 0U);
 }
 

@@ -1,4 +1,3 @@
-// Makes every call on a context once.
 #pragma once
 
 #include "tests/api/api_fixture.h"

@@ -1,4 +1,3 @@
-// Exceptions without a message, the names of results, and the log.
 #include "lib/api/guard.h"
 #include "lib/base/log.h"
 

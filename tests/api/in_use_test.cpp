@@ -1,4 +1,3 @@
-// Calls from callbacks and other threads while a call is running.
 #include "lib/api/in_use.h"
 #include "tests/api/api_fixture.h"
 #include "tests/api/every_call.h"
@@ -110,7 +109,7 @@ TEST_F(InUseTest, TheMessageIsThatOfTheLastCallThatFailed) {
     std::thread([&] { EXPECT_EQ(message(), "thrown by a callback"); }).join();
 }
 
-// A child process lacks the driver's threads, so calls would wait forever.
+// The child process lacks the driver's threads, so calls would wait forever.
 TEST_F(InUseTest, AChildOfForkIsRefused) {
     set_all();
     const std::string not_ours = "this context belongs to the process that this one was forked from";

@@ -1,4 +1,3 @@
-// pt_prepare() and kernels that the caller keeps.
 #include "tests/api/api_fixture.h"
 #include "tests/support/context_calls.h"
 #include "tests/support/coursework_scene.h"

@@ -1,4 +1,3 @@
-// pt_start(), pt_poll() and pt_cancel().
 #include "tests/api/api_fixture.h"
 #include "tests/api/every_call.h"
 #include "tests/support/context_calls.h"
@@ -149,8 +148,8 @@ TEST_F(PollingTest, AfterACancellationTheCameraMayMove) {
     EXPECT_EQ(image_of(on.get()), expected);
 }
 
-// A cancellation finishes the sample that some tiles have begun. The error is checked at the same counts, and never
-// while slices run.
+// Cancelling completes a sample that some tiles have begun. The error is checked at the same counts as without, and
+// never while slices run.
 TEST_F(PollingTest, ATargetIsReachedAtTheSameCount) {
     constexpr uint32_t most = 4096;
     constexpr double target = 0.1;
@@ -258,7 +257,7 @@ TEST_F(PollingTest, ACallbackMayNotPollButCancel) {
     EXPECT_EQ(pt_accumulate(context(), &info), PT_OK) << "it counts once";
 }
 
-// The validation layer reports errors.
+// The validation layer would report errors.
 TEST_F(PollingTest, AContextMayBeDestroyedAtAnyTime) {
     int polls = 0;
     for (const Use &use : all_uses) {

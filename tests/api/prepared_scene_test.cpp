@@ -1,4 +1,3 @@
-// A prepared scene's digest.
 #include "lib/kernel/prepared_scene.h"
 
 #include "lib/scene/scene.h"
@@ -70,7 +69,7 @@ TEST(SceneDigest, DoesNotDependOnTheListOfMaterials) {
     repeated.materials[0].diffuse.r = repeated.materials[2].diffuse.r = 0.0F;
     const std::string zero = pt::digest_of(repeated);
     EXPECT_NE(zero, digest);
-    repeated.materials[2].diffuse.r = -0.0F; // -0 equals 0
+    repeated.materials[2].diffuse.r = -0.0F;
     EXPECT_EQ(pt::digest_of(repeated), zero);
 }
 

@@ -1,4 +1,4 @@
-// pt_reload_shaders() replaces kernels only on success, and all samples come from one kernel.
+// pt_reload_shaders() changes kernels only on success. Samples of different kernels never mix.
 #include "lib/render/renderer.h"
 #include "lib/scene/scene.h"
 #include "tests/api/api_fixture.h"
@@ -66,7 +66,7 @@ protected:
         EXPECT_NE(own_message().find(part), std::string::npos) << own_message() << "\nmust contain\n" << part;
     }
 
-    // This is exact, because powers of two scale sums without rounding.
+    // Powers of two scale sums without rounding.
     void double_the_radiance() const {
         shaders_.replace("pathtrace.comp", "* held.film_scale", "* (2.0 * held.film_scale)");
     }
@@ -219,14 +219,14 @@ TEST_F(ReloadTest, AllDevicesGetTheKernels) {
     expect_samples(shared.get(), 64, 2);
 }
 
-// lavapipe 22.3.6 leaks when it refuses a kernel.
+// lavapipe 22.3.6 leaks memory when it refuses a kernel.
 #ifdef __SANITIZE_ADDRESS__
 using DriverMayLeak = __lsan::ScopedDisabler;
 #else
 struct DriverMayLeak {};
 #endif
 
-// Every driver rejects a renamed entry point. The validation layer would complain first.
+// Every driver refuses a renamed entry point. The validation layer would complain first.
 TEST_F(ReloadTest, KernelsThatTheDriverRefusesAreNotTaken) {
     pt::CreateSettings settings;
     settings.device = std::getenv("PT_TEST_DEVICE") ? std::getenv("PT_TEST_DEVICE") : "";

@@ -1,4 +1,3 @@
-// The rules of render settings and their defaults.
 #include "lib/scene/render_settings.h"
 
 #include "tests/geometry/refusals.h"

@@ -1,4 +1,3 @@
-// pt_set_scene: progress, cancellation, and scenes of one tree shape.
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/scene_of.h"
@@ -36,7 +35,7 @@ struct Cloud {
         array.radius = {&radius, 0, PT_TYPE_FLOAT32};
     }
 
-    // The scene points into this object.
+    // The returned scene points into this object.
     pt_scene scene() {
         array.center = {centers.data(), 12, PT_TYPE_FLOAT32};
         pt_scene scene = scene_of(materials, {&lamp, 1}, {});
@@ -58,7 +57,7 @@ class SetSceneTest : public ContextFixture {
 protected:
     struct Told {
         std::vector<double> shares;
-        std::size_t most = SIZE_MAX; // calls before cancelling
+        std::size_t most = SIZE_MAX; // number of calls before the one that cancels
 
         static std::int32_t receive(void *user, double share) {
             auto *const told = static_cast<Told *>(user);

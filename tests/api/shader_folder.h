@@ -15,7 +15,7 @@ public:
 
     std::string path() const { return std::filesystem::path(file("x")).parent_path(); }
 
-    // The part must occur exactly once.
+    // `old_part` must occur exactly once.
     void replace(const std::string &name, const std::string &old_part, const std::string &new_part) const {
         std::string text = read(name);
         const std::size_t place = text.find(old_part);
@@ -24,7 +24,7 @@ public:
         write(name, text.replace(place, old_part.size(), new_part));
     }
 
-    // Inserts a faulty line. Returns its place as the compiler names it.
+    // Inserts a faulty line. Returns the place that the compiler's message names.
     std::string break_film() const {
         std::string text = read("film.glsl");
         const std::size_t place = text.find("uvec4 windows_of(");

@@ -1,4 +1,4 @@
-// The growth rule of structs: fields that one side does not know count as zeros.
+// Structs may grow: fields that one side does not know count as zeros.
 #include "tests/api/api_fixture.h"
 
 #include <algorithm>
@@ -55,7 +55,7 @@ Newer<T> newer_than(const T &value) {
     return newer;
 }
 
-// The call must accept newer structs with a zero tail and name each nonzero byte there. It must reject sizes that never
+// The call must accept newer structs with a zero tail, name each nonzero byte in a tail, and reject sizes that never
 // existed.
 template <typename T, typename Call>
 void expect_sizes_heeded(const T &value, const std::string &name, const Call &call) {
@@ -88,7 +88,7 @@ protected:
 };
 
 TEST(StructSize, AMisreadStructIsNoticed) {
-    const auto reads_beyond = [](const pt_camera &camera) { return camera.focus; }; // its last field
+    const auto reads_beyond = [](const pt_camera &camera) { return camera.focus; };
     const auto reads_size = [](const pt_camera &camera) { return camera.struct_size; };
     EXPECT_EQ(misread_sizes(valid_camera(), reads_beyond), older_sizes<pt_camera>());
     EXPECT_EQ(misread_sizes(valid_camera(), reads_size), older_sizes<pt_camera>());
@@ -186,7 +186,7 @@ TEST(StructSize, CreateInfo) {
     expect_sizes_heeded(info, "create", call);
 }
 
-// The call must write exactly the caller's size. It must reject sizes that never existed.
+// The call must write exactly as many bytes as the caller's size, and reject sizes that never existed.
 template <typename T, typename Call>
 void expect_written_sizes_heeded(const T &whole, const std::string &name, const Call &call) {
     for (const uint32_t size : older_sizes<T>()) {

@@ -10,7 +10,7 @@
 namespace {
 
 thread_local bool in_library = false;
-std::size_t allocation_count = 0; // on one thread
+std::size_t allocation_count = 0; // of one thread
 std::size_t failing_number = 0;
 bool failing_goes_on = false;
 bool failed = false;
@@ -19,7 +19,7 @@ std::atomic<long> live{0}; // atomic: a driver's thread may free the library's m
 std::atomic<long> live_bytes{0};
 long most_bytes = 0;
 
-// A header before each allocation. The header's size keeps the alignment.
+// Stands before each allocation. Its own size keeps the allocation aligned.
 struct alignas(std::max_align_t) Header {
     std::size_t size;
     bool of_library;

@@ -13,7 +13,7 @@ public:
     InLibrary &operator=(const InLibrary &) = delete;
 };
 
-// Excludes Vulkan and callbacks from the library.
+// Allocations by Vulkan or callbacks are not the library's. None of them fails while this object exists.
 class OutOfLibrary {
 public:
     OutOfLibrary();
@@ -25,10 +25,11 @@ private:
     bool was_in_library_;
 };
 
-// `number` counts from 1. 0 means that none fails. With `goes_on`, all later allocations fail too.
+// `number` counts from 1, and 0 stops failures. With `goes_on`, all later allocations fail too.
 void fail_allocation(std::size_t number, bool goes_on);
 
-// Whether the chosen allocation was reached, and whether it throws. Allocations that do not throw are optional.
+// Whether the chosen allocation was reached, and whether it throws. Without a throw, the library may go on without the
+// memory.
 bool allocation_failed();
 bool allocation_threw();
 

@@ -1,4 +1,3 @@
-// Replaces the library's clock at link time (--wrap).
 #include "tests/faults/clock.h"
 
 extern "C" std::chrono::steady_clock::time_point __wrap__ZNSt6chrono3_V212steady_clock3nowEv();

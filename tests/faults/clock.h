@@ -1,5 +1,5 @@
-// Replaces the library's clock, which then advances only on request. Slices become reproducible, and hung devices take
-// no time.
+// Replaces the library's clock (linker option --wrap). The clock advances only on request, so slices are reproducible
+// and hung devices take no time.
 #pragma once
 
 #include <chrono>

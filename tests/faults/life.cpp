@@ -25,7 +25,7 @@ constexpr uint32_t width = 24;
 constexpr uint32_t height = 20;
 constexpr uint32_t other_film_end = 12;
 
-// Paths are long, so that a millisecond is too short for all pixels.
+// Paths are so long that a millisecond is too short for all pixels.
 struct Scene {
     std::array<pt_material, 3> materials = {{{{0, 0, 0}, {0, 0, 0}, {8, 4, 2}, 0, 0},
                                              {{0.2F, 0.5F, 0.8F}, {0.8F, 0.8F, 0.8F}, {0, 0, 0}, 40, 0},
@@ -54,7 +54,7 @@ int32_t go_on(void * /*user*/, double /*fraction*/) {
     return 0;
 }
 
-// After a failure no samples are under way. Otherwise later calls would be refused.
+// After a failure nothing is running, or later calls would be refused.
 pt_result start_and_poll(pt_context *context, const pt_accumulate_info *info) {
     pt_accumulate_info to_start = *info;
     to_start.progress = nullptr;
@@ -226,14 +226,14 @@ void Life::call(const std::string &step, const Function &function, const std::fu
     EXPECT_GE(run(function), PT_OK) << step << ": " << pt_last_error(context_);
 }
 
-// A call that fails keeps its whole samples. Several devices may keep none if memory is short.
+// A call that fails keeps its complete samples. If memory is short, several devices may keep none.
 void Life::accumulate_to(const std::string &step, uint32_t sample_count, double target_error, Accumulate accumulate) {
     pt_accumulate_info info{};
     info.struct_size = sizeof info;
     info.sample_count = sample_count - state().sample_count;
     info.progress = &go_on;
     info.target_error = target_error;
-    info.sampling = PT_SAMPLING_UNIFORM; // equal samples everywhere
+    info.sampling = PT_SAMPLING_UNIFORM;
     const uint32_t before = state().sample_count;
     call(
         step, [&] { return info.sample_count == 0 ? PT_OK : accumulate(context_, &info); },

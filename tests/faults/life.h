@@ -1,4 +1,4 @@
-// The calls of a context's life. After a fault, the contract of pt.h is checked and the call is repeated.
+// The calls of a context's life. After a fault, each call is checked against pt.h and repeated.
 #pragma once
 
 #include <pt/pt.h>
@@ -13,7 +13,7 @@
 namespace faults {
 
 struct Setting {
-    bool gpu; // see pose_as_gpu
+    bool gpu; // whether the CPU poses as a GPU
     uint32_t device_count;
     uint32_t submit_milliseconds;
 };
@@ -24,7 +24,7 @@ using Film = std::vector<char>;
 struct ExpectedImages {
     std::map<uint32_t, Image> radiance;
     std::map<uint32_t, Image> standard_error;
-    Film film; // of all samples
+    Film film; // film with all samples
     Film other_film;
 };
 
@@ -90,7 +90,7 @@ private:
     Steps met_;
     bool lost_ = false;
     pt_context *context_ = nullptr;
-    uint32_t rows_ = 0; // from the top
+    uint32_t rows_ = 0;
 };
 
 } // namespace faults

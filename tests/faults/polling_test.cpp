@@ -1,4 +1,3 @@
-// Tests that pt_start builds all pipelines and pt_poll builds none.
 #include "tests/faults/clock.h"
 #include "tests/faults/vulkan_calls.h"
 #include "tests/support/image_target.h"
@@ -22,7 +21,7 @@ namespace {
 using namespace faults;
 
 struct Way {
-    bool gpu; // see pose_as_gpu
+    bool gpu; // whether the CPU poses as a GPU
     uint32_t device_count;
     uint32_t submit_milliseconds;
     double target_error;

@@ -1,4 +1,4 @@
-// Measures the host memory of pt_set_scene, in addition to the caller's arrays.
+// Measures the host memory of pt_set_scene without the caller's arrays.
 #include "tests/faults/allocations.h"
 #include "tests/support/scene_of.h"
 
@@ -15,7 +15,7 @@ using namespace faults;
 
 constexpr std::uint32_t sphere_count = 200'000;
 
-// Points into this object.
+// pt_scene points into this object.
 struct ManySpheres {
     std::vector<pt_material> materials = {{{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0, 0},
                                           {{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0, 0}};
@@ -46,7 +46,7 @@ struct ManySpheres {
 };
 
 struct Taken {
-    double meanwhile; // peak
+    double meanwhile; // peak during the call
     double after;
 };
 
@@ -82,7 +82,7 @@ private:
     pt_context *context_ = nullptr;
 };
 
-// A sphere takes at most 48 bytes of device words and the index of its place.
+// A sphere takes at most 48 bytes of device words, plus indices.
 TEST_F(SceneMemoryTest, Is64BytesASphere) {
     ManySpheres spheres;
     expect_at_most(spheres, 64, 48 + 4);

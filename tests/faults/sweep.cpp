@@ -9,7 +9,7 @@ namespace faults {
 
 namespace {
 
-// Makes a long error message first. The thread's memory for messages then no longer changes.
+// A long error message enlarges the thread's memory for messages, which then stays the same.
 void keep_a_long_message() {
     const std::string no_device(1000, '?');
     pt_create_info create{};

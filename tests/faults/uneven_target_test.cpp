@@ -1,4 +1,4 @@
-// Injects faults into adaptive sampling. After the call is repeated, the film must have the same bytes as without
+// Injects faults into adaptive sampling. If the call is then repeated, the film must have the same bytes as without
 // faults.
 #include "tests/faults/allocations.h"
 #include "tests/faults/vulkan_calls.h"
@@ -24,7 +24,7 @@ using FilmBytes = std::vector<char>;
 constexpr uint32_t uneven_width = 40;
 constexpr uint32_t uneven_height = 24;
 
-// The validation layer is off, since its calls and memory would be counted.
+// The validation layer is off, because its calls and memory would count.
 Context context_of(uint32_t device_count) {
     pt_create_info info{};
     info.struct_size = sizeof info;
@@ -47,7 +47,7 @@ pt_result take_to_target(pt_context *context) {
     return pt_accumulate(context, &info);
 }
 
-// Rounds repeat most places, so later only every eighth place is tested.
+// Rounds repeat most places. Later rounds therefore test only every eighth place.
 std::size_t place_after(std::size_t place) {
     return place + 1 + place / 8;
 }
@@ -115,7 +115,7 @@ TEST_P(UnevenTargetTest, AnyVulkanCallMayFail) {
     bool reached = true;
     for (std::size_t place = 1; reached && !HasFatalFailure(); place = place_after(place)) {
         for (std::size_t error = 0; error < 2;
-             ++error) { // only the two memory errors: the others lose the device and its film
+             ++error) { // Only the two memory errors are injected. Other errors lose the device and its film.
             SCOPED_TRACE("call " + std::to_string(place) + ", error " + std::to_string(error));
             begin_picture(context());
             fail_call(place, error);

@@ -1,4 +1,4 @@
-// Fails every Vulkan call once. The pt.h call must fail as it says, change nothing and leak nothing.
+// Fails every Vulkan call once. The pt.h call must fail as pt.h says, without changes or leaks.
 #include "tests/faults/sweep.h"
 #include "tests/faults/vulkan_calls.h"
 
@@ -15,14 +15,14 @@ namespace {
 using namespace faults;
 
 pt_result expected_result(const CallFault &fault) {
-    // Work of unknown state, or work that does not end, loses the device.
+    // If work does not end, or its state is unknown, the device is lost.
     if (fault.function == "vkWaitForFences" && fault.result == VK_TIMEOUT)
         return PT_OK;
     if (fault.function == "vkWaitForFences" || fault.function == "vkResetFences")
         return PT_ERROR_DEVICE_LOST;
     if (fault.function == "vkGetFenceStatus")
         return fault.result == VK_ERROR_DEVICE_LOST ? PT_ERROR_DEVICE_LOST : PT_OK;
-    if (fault.function == "vkGetPipelineCacheData") // the cache is optional
+    if (fault.function == "vkGetPipelineCacheData") // The library can do without the cache.
         return PT_OK;
     switch (fault.result) {
     case VK_ERROR_OUT_OF_HOST_MEMORY:
@@ -72,7 +72,7 @@ public:
         if (fault.function.empty())
             return false;
         places_.push_back({step, number_, fault});
-        // A CPU has one type of memory. Other devices may allocate elsewhere.
+        // A CPU has one type of memory. Other devices may have another type left.
         const bool another_memory =
             fault.function == "vkAllocateMemory" && fault.result == VK_ERROR_OUT_OF_DEVICE_MEMORY && result == PT_OK;
         if (step != "pt_destroy" && !another_memory) {
@@ -89,8 +89,8 @@ private:
     std::vector<Place> &places_;
 };
 
-// First fails every call with its function's first error. Then fails the first call of each function, and all
-// submissions, with the other errors.
+// Every call fails once with its function's first error. With each other error, only the first call of each function
+// and all submissions fail.
 void fail_every_call(const Setting &setting) {
     const ExpectedImages expected = undisturbed_images();
     std::vector<Place> places;
@@ -108,8 +108,8 @@ void fail_every_call(const Setting &setting) {
             Life life(setting, expected, {place.step});
             life.live(injection);
             heal_devices();
-            // The objects of a hung device are never freed. Real time decides how often work is polled, so there may be
-            // fewer calls.
+            // A hung device keeps its objects. Real time decides how often it is polled, so the number of calls may
+            // fall.
             const bool hangs = places.size() > met_before && places.back().fault.function == "vkQueueSubmit" &&
                                places.back().fault.result == VK_TIMEOUT;
             EXPECT_EQ(live_objects().contains("vkCreateDevice"), hangs);

@@ -59,7 +59,7 @@ std::uint64_t largest_heap = UINT64_MAX;
 std::set<const void *> lost; // devices and queues
 std::set<VkFence> hanging;
 std::map<VkQueue, VkDevice> devices_of_queues;
-std::multiset<std::pair<const void *, Call>> live; // with their makers
+std::multiset<std::pair<const void *, Call>> live; // object's maker and function
 PFN_vkDeviceWaitIdle wait_idle = nullptr;
 PFN_vkGetDeviceProcAddr get_device_function = nullptr;
 
@@ -74,18 +74,17 @@ VkDevice device_of(const std::tuple<A...> &arguments) {
         return VK_NULL_HANDLE;
 }
 
-// Returns no value if the real call is to be made.
+// Returns no value if the real call must be made.
 std::optional<VkResult> result_by_plan(Call call) {
     const std::vector<VkResult> &errors = function(call).errors;
     if (errors.empty() || ++call_count != failing_number)
         return std::nullopt;
-    const bool may_hang = posing || errors.back() != VK_TIMEOUT; // waiting for a CPU has no time limit
+    const bool may_hang = posing || errors.back() != VK_TIMEOUT; // Waiting for a CPU has no time limit.
     const std::size_t error_count = errors.size() - (may_hang ? 0 : 1);
     fault = {function(call).name, errors[failing_error % error_count], error_count};
     return fault.result;
 }
 
-// Durations are in the library's clock.
 constexpr std::chrono::milliseconds submission_time{1};
 constexpr std::chrono::milliseconds look_time{100};
 constexpr std::chrono::microseconds polling_time{300};
@@ -147,7 +146,7 @@ void note_effect(const std::tuple<A...> &arguments) {
     if constexpr (call == Call::WaitForFences)
         pass_time(submission_time);
     if constexpr (call == Call::GetFenceStatus)
-        pass_time(polling_time); // the library does not poll twice before it waits
+        pass_time(polling_time); // The library waits after one poll.
     if constexpr (call == Call::GetDeviceQueue)
         devices_of_queues[*std::get<3>(arguments)] = std::get<0>(arguments);
     if constexpr (call == Call::GetPhysicalDeviceProperties)
@@ -202,7 +201,7 @@ struct Hook<call, Result(VKAPI_PTR *)(A...)> {
                     hanging.insert(std::get<3>(arguments));
             } else if (planned) {
                 if (planned == VK_ERROR_DEVICE_LOST && device_of(arguments)) {
-                    wait_idle(device_of(arguments)); // a lost device does no more work
+                    wait_idle(device_of(arguments)); // ends the lost device's work
                     lost.insert(device_of(arguments));
                 }
                 return *planned;
@@ -212,7 +211,7 @@ struct Hook<call, Result(VKAPI_PTR *)(A...)> {
             const VkResult result = made<call>(real, values...);
             if (result == VK_SUCCESS)
                 note_effect<call>(arguments);
-            if (planned == VK_TIMEOUT) // the CPU's driver does not tolerate freed resources
+            if (planned == VK_TIMEOUT) // The CPU's driver crashes if resources in use are freed.
                 wait_idle(device_of(arguments));
             return result;
         } else {
@@ -243,7 +242,7 @@ const std::unordered_map<std::string_view, Entry> &entries() {
     return entries;
 }
 
-// A function without a hook would not be tested.
+// A function without a hook would stay untested.
 [[noreturn]] void unknown_function() {
     std::fputs("the library called a Vulkan function that tests/faults/vulkan_functions.h does not list\n", stderr);
     std::abort();

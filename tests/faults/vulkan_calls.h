@@ -1,4 +1,4 @@
-// Makes a chosen Vulkan call fail, and counts live objects. The linker replaces vkGetInstanceProcAddr (--wrap).
+// Makes a chosen Vulkan call fail, and counts live objects. The linker option --wrap replaces vkGetInstanceProcAddr.
 #pragma once
 
 #include <vulkan/vulkan_core.h>
@@ -11,29 +11,29 @@
 namespace faults {
 
 struct CallFault {
-    std::string function; // empty: not reached
+    std::string function; // empty if not reached
     VkResult result = VK_SUCCESS;
     std::size_t error_count = 0;
 };
 
-// Fails one call. `number` counts the calls that can fail from 1, and 0 means that none fails. `error_index` chooses
-// the error from the function's list, modulo its length. A submission with VK_TIMEOUT is made but never ends, and each
-// poll of it takes 0.1 s in the library's clock. A wait with VK_TIMEOUT takes an hour.
+// Fails one call. `number` counts the calls that can fail from 1, and 0 stops failures. `error_index` chooses from the
+// function's list of errors, modulo its length. VK_TIMEOUT for a submission means that its work never ends and each
+// poll takes 0.1 s in the library's clock. VK_TIMEOUT for a wait takes an hour.
 void fail_call(std::size_t number, std::size_t error_index);
 
 CallFault call_fault();
 
 void heal_devices();
 
-// Devices look like discrete GPUs with staging buffers, two submissions at a time, and a time limit.
+// The CPU poses as a discrete GPU: with staging buffers, two submissions at a time, and a time limit.
 void pose_as_gpu(bool pose);
 
 void limit_memory(std::uint64_t bytes);
 
-// Counts objects by the function that made them, without descriptor sets and command buffers.
+// Counts objects by the function that made them. Descriptor sets and command buffers are left out.
 std::map<std::string, long> live_objects();
 
-// Live objects stay until the process ends, but no longer count.
+// Objects that now exist no longer count. They stay until the process ends.
 void forget_objects();
 
 } // namespace faults

@@ -1,7 +1,7 @@
 // Vulkan functions with their effects on objects and their errors (Vulkan 1.3.239, "Return Codes").
 #pragma once
 
-// X(name without vk, effect on objects, errors...)
+// X(name without vk, effect on objects, possible errors...)
 #define FAULTS_VULKAN_FUNCTIONS(X)                                                                                     \
     X(EnumerateInstanceVersion, None, VK_ERROR_OUT_OF_HOST_MEMORY)                                                     \
     X(EnumerateInstanceExtensionProperties, None, VK_ERROR_OUT_OF_HOST_MEMORY, VK_ERROR_OUT_OF_DEVICE_MEMORY)          \

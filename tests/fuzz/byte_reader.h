@@ -1,4 +1,4 @@
-// Reads values from the fuzzer's bytes. After the last byte it reads 0, so each prefix of an input is an input.
+// Reads values from the fuzzer's bytes. After the last byte all bytes are 0, so each prefix of an input is an input.
 #pragma once
 
 #include <algorithm>
@@ -24,10 +24,9 @@ public:
         return value;
     }
 
-    // Returns a number in [0, count), for count <= 256.
     std::uint32_t below(std::uint32_t count) { return raw<std::uint8_t>() % count; }
 
-    // Byte 0 means no.
+    // True for the largest of `count` values. Byte 0 gives false.
     bool one_in(std::uint32_t count) { return below(count) == count - 1; }
 
     template <typename T, std::size_t Count>

@@ -1,5 +1,5 @@
-// Checks each input. The variants are examine_numbers.cpp (on the host) and examine_image.cpp (renders images). A
-// failed check ends the process.
+// Checks each input. examine_numbers.cpp does so on the host, and examine_image.cpp renders images. A failed check ends
+// the process.
 #pragma once
 
 #include "tests/fuzz/input.h"

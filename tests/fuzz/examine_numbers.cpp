@@ -1,4 +1,4 @@
-// Checks without a device that accepted input keeps pt.h's promises, and that refusals have a code and a message.
+// Checks inputs without a device. Accepted inputs must keep pt.h's promises, and refusals need a code and a message.
 #include "tests/fuzz/examine.h"
 
 #include "lib/base/error.h"
@@ -34,7 +34,7 @@ void require_refusal(const pt::Error &error) {
             "the message of what is refused names a field, its value and a rule");
 }
 
-// Empty if refused.
+// Returns no value if the input is refused.
 template <typename Validate>
 auto accepted(Validate validate) -> std::optional<decltype(validate())> {
     try {
@@ -62,7 +62,7 @@ bool is_color(const glm::vec3 &color) {
     return in_range(color.r) && in_range(color.g) && in_range(color.b);
 }
 
-// Squares, sum, root and quotient each round once by 2^-53.
+// Squares, sum, root and quotient round once each by 2^-53.
 bool is_unit(const glm::dvec3 &v) {
     return std::abs(glm::length(v) - 1.0) <= 8 * 0x1p-53;
 }
@@ -86,8 +86,8 @@ void require_scene(const pt::Scene &scene) {
 }
 
 void require_camera(const pt::Camera &camera) {
-    // The error is 5 * 2^-53 / 2^-26 at the smallest angle between up and the view (camera.cpp), and twice as large
-    // between two vectors.
+    // At the smallest angle between `up` and the view, the error is 5 * 2^-53 / 2^-26 (camera.cpp). Between two such
+    // vectors the error doubles.
     constexpr double rounding = 10 * 0x1p-27;
     require(are_lengths(camera.position), "the camera's position is made of lengths");
     require(is_unit(camera.forward) && is_unit(camera.right) && std::abs(glm::length(camera.up) - 1.0) <= rounding,
@@ -96,7 +96,7 @@ void require_camera(const pt::Camera &camera) {
                 std::abs(glm::dot(camera.forward, camera.up)) <= rounding &&
                 std::abs(glm::dot(camera.right, camera.up)) <= rounding,
             "the camera's axes are perpendicular");
-    const double least_tangent = (1.0 - 0x1p-40) * std::tan(0.5e-8); // 40 bits are kept
+    const double least_tangent = (1.0 - 0x1p-40) * std::tan(0.5e-8); // 40 bits are kept.
     require((camera.is_orthographic() || camera.tan_half_fov >= least_tangent) && std::isfinite(camera.tan_half_fov),
             "the field of view lies in [1e-8, pi)");
     require(camera.shutter_open >= 0.0 && camera.shutter_open <= camera.shutter_close && camera.shutter_close <= 1.0,
@@ -129,8 +129,8 @@ void require_features(const pt::Features &features, const pt::Scene &scene) {
             "the loop trips of a sample can be counted");
 }
 
-// The largest numbers are squares of lengths. A length is at most 3e18 from the pinhole, and the pinhole is at most
-// 6e18 behind the start of the rays. Only the peak of a lobe, k_s (n + 2) / (2 pi), is larger.
+// The largest numbers are squares of lengths. Lengths are at most 3e18 from the pinhole, which is at most 6e18 behind
+// the start of rays. Only a lobe's peak, k_s (n + 2) / (2 pi), may be larger.
 constexpr float largest_length = 9.0001e18F;
 constexpr float largest_peak = 1.6e26F;
 
@@ -139,7 +139,7 @@ bool is_within(const glm::vec4 &word, float largest) {
     return size.x <= largest && size.y <= largest && size.z <= largest && size.w <= largest;
 }
 
-// A lamp tree has lengths, powers up to twice the scene's size, and squares of lengths (lamp_tree_words.cpp).
+// A lamp tree has lengths, powers of up to twice the scene's size, and squares of lengths (lamp_tree_words.cpp).
 float largest_in_lamp_tree(std::uint64_t word, const pt::Features &features) {
     const std::uint64_t group_words = pt::gpu::lamp_tree_group_words(features[pt::gpu::ID_MOTION]);
     if (word >= group_words * pt::LampTreeShape(features[pt::gpu::ID_LAMP_COUNT]).all_groups())
@@ -165,7 +165,7 @@ void require_words(const std::vector<glm::vec4> &words, const pt::Features &feat
             "the scene fits into the buffer that it is in");
     const std::uint64_t reflections = features.scene_in_uniform() ? features.surface_count() : features.table_materials;
     const auto is_specular = [&](std::uint64_t word) {
-        const std::uint64_t from_first = word - blocks.specular; // wraps around for earlier words
+        const std::uint64_t from_first = word - blocks.specular; // wraps around for words before `specular`
         return features[pt::gpu::ID_GLOSS] && from_first % blocks.reflection_step == 0 &&
                from_first / blocks.reflection_step < reflections;
     };
@@ -188,7 +188,7 @@ void require_words(const std::vector<glm::vec4> &words, const pt::Features &feat
     const auto planes = std::span(words).subspan(features[pt::gpu::ID_SPHERE_COUNT], features[pt::gpu::ID_PLANE_COUNT]);
     require(std::ranges::all_of(planes,
                                 [](const glm::vec4 &plane) {
-                                    // Rounded to float32.
+                                    // The plane is rounded to float32.
                                     return std::abs(glm::length(glm::dvec3(plane)) - 1.0) <= 2 * 0x1p-24;
                                 }),
             "the kernel's normals are unit vectors");

@@ -1,4 +1,4 @@
-// Adds films to a context. The input has only the bytes after the identity's lines, which depend on the device.
+// Adds films to a context. Inputs begin after the identity's lines, which depend on the device.
 #include "tests/fuzz/film_input.h"
 #include "tests/fuzz/on_device.h"
 #include "tests/support/scene_of.h"
@@ -13,7 +13,7 @@
 
 namespace {
 
-constexpr std::uint32_t sample_count = 4; // of the context
+constexpr std::uint32_t sample_count = 4;
 
 using Bytes = std::vector<std::byte>;
 

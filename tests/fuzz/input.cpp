@@ -11,7 +11,7 @@ namespace fuzz {
 namespace {
 
 constexpr std::uint32_t most_surfaces_read = 12;
-constexpr std::uint32_t most_copies = 128; // exceeds a uniform buffer
+constexpr std::uint32_t most_copies = 128; // enough to exceed a uniform buffer
 
 template <std::size_t Count>
 void read_lengths(Numbers &numbers, double (&lengths)[Count]) {
@@ -98,7 +98,6 @@ void read_render(Numbers &numbers, ByteReader &bytes, pt_render &render) {
     render.reserved = numbers.count(1);
 }
 
-// Reads wrong pointers and counts.
 void read_claims(ByteReader &bytes, Input &input) {
     input.claims.has_materials = !bytes.one_in(32);
     input.claims.has_spheres = !bytes.one_in(32);
@@ -111,7 +110,7 @@ void read_claims(ByteReader &bytes, Input &input) {
         if (bytes.one_in(16))
             size = bytes.one_in(4) ? bytes.raw<std::uint32_t>() : bytes.below(256);
     }
-    // A caller's pt_scene cannot end within a pointer.
+    // No caller's pt_scene ends within a pointer.
     std::uint32_t &scene_size = input.struct_sizes[0];
     if (scene_size < sizeof(pt_scene) && scene_size > offsetof(pt_scene, materials))
         scene_size &= ~7U;
@@ -135,7 +134,7 @@ void read_columns(ByteReader &bytes, Input &input) {
         columns.more_spheres = (1U << 27) | bytes.raw<std::uint32_t>();
     if (bytes.one_in(16))
         columns.struct_size = bytes.one_in(4) ? bytes.raw<std::uint32_t>() : bytes.below(256);
-    // A caller's array cannot end within a pointer.
+    // No caller's array ends within a pointer.
     if (columns.struct_size < sizeof(pt_sphere_array) && columns.struct_size > offsetof(pt_sphere_array, center))
         columns.struct_size &= ~7U;
 }

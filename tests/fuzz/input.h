@@ -1,4 +1,4 @@
-// The input of one run, from bytes or from a scene file.
+// The input of one run. Bytes or a scene file provide it.
 #pragma once
 
 #include "tests/fuzz/byte_reader.h"
@@ -21,7 +21,7 @@ struct Input {
     pt_render render{};
     std::uint32_t sample_count = 1;
 
-    // Wrong values that replace the input's. Wrong values either promise no more than exists, or are refused.
+    // Wrong values that replace the input's. They promise at most what exists, or must be refused.
     struct SceneClaims {
         bool has_materials = true;
         bool has_spheres = true;
@@ -30,12 +30,12 @@ struct Input {
         std::uint32_t fewer_materials = 0;
     } claims;
 
-    // The last spheres may be columns that point into the structs.
+    // Columns may hold the last spheres. Their pointers point into the structs.
     struct Columns {
         std::uint32_t count = 0; // spheres in columns
         bool has_colors = false;
         std::uint32_t claimed = none;   // index of the column that `claim` replaces
-        pt_column claim{};              // `data` is NULL, or any pointer, which is then replaced by the column's own
+        pt_column claim{};              // `data` is NULL, or is replaced by the column's own pointer
         std::uint32_t more_spheres = 0; // 2^27 or more
         std::uint32_t struct_size = sizeof(pt_sphere_array);
 
@@ -48,13 +48,13 @@ struct Input {
     pt_scene scene() const;
 };
 
-// Any bytes are valid.
+// All bytes are valid.
 Input decoded_input(ByteReader bytes);
 
-// The new number obeys the rules of pt.h. The kernel's features usually stay the same.
+// Keeps to the rules of pt.h. The kernel's features usually stay the same.
 void change_one_number(Input &input, ByteReader &bytes);
 
-// Holds a struct in memory of exactly the given size, so that AddressSanitizer detects reads beyond it.
+// A struct in memory of exactly its size, so AddressSanitizer detects reads beyond its end.
 class SizedStruct {
 public:
     template <typename T>

@@ -6,13 +6,13 @@
 
 extern "C" {
 
-// Defined by the target. Returns 0.
+// The target defines this function. Returns 0.
 int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size);
 
-// May be defined by the target. Changes `size` bytes in memory of max_size bytes, and returns the new size.
+// The target may define this function. Changes `size` bytes in memory of max_size bytes, and returns the new size.
 __attribute__((weak)) std::size_t LLVMFuzzerCustomMutator(std::uint8_t *data, std::size_t size, std::size_t max_size,
                                                           unsigned int seed);
 
-// Defined by the runner.
+// The runner defines this function.
 std::size_t LLVMFuzzerMutate(std::uint8_t *data, std::size_t size, std::size_t max_size);
 }

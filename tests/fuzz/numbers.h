@@ -1,4 +1,5 @@
-// Draws ordinary numbers, numbers of any magnitude, and the ends of pt.h's ranges. A wild source also breaks rules.
+// Draws ordinary numbers, numbers of any magnitude, and the ends of pt.h's ranges. A wild source also draws numbers
+// that break rules.
 #pragma once
 
 #include "tests/fuzz/byte_reader.h"
@@ -22,7 +23,7 @@ public:
 
 private:
     double ordinary();
-    double any_magnitude(); // of any sign, in [1e-18, 1e18]
+    double any_magnitude(); // any sign, magnitude in [1e-18, 1e18]
     double boundary();
     bool breaks_rule() { return wild_ && bytes_.one_in(16); }
     double anything();

@@ -1,4 +1,4 @@
-// One context for all inputs. tests/support/context_fixture.h describes the environment.
+// One context for all inputs. tests/support/context_fixture.h describes the environment variables.
 #pragma once
 
 #include "tests/fuzz/require.h"

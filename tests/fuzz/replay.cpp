@@ -22,9 +22,9 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::size_t max_size = 4096;
 
-std::mt19937 mutation_random; // the default seed
+std::mt19937 mutation_random; // default seed
 
-// for the signal handler
+// Read by the signal handler.
 const Bytes *present_input = nullptr;
 
 extern "C" void save_present_input(int signal) {

@@ -48,7 +48,7 @@ pt::Sphere ball_from_camera(const glm::dvec3 &place, double radius, const glm::d
     return {camera_position + place, radius, motion, 0};
 }
 
-// In the limiting view, a pixel's side is 2^-14 of its distance: fov = 64 * 2^-14.
+// The limit is a view whose pixels have sides of 2^-14 of their distance: fov = 64 * 2^-14.
 TEST(RayStart, IsThePinholeInWideViews) {
     EXPECT_EQ(start_of({ball_from_camera(1e6 * oblique, 1)}, {}, looking_along(oblique, 4.0e-3)), 0.0);
     EXPECT_GT(start_of({ball_from_camera(1e6 * oblique, 1)}, {}, looking_along(oblique, 3.8e-3)), 0.9e6);

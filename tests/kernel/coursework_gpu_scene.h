@@ -1,4 +1,3 @@
-// The coursework scene in the kernel's layout.
 #pragma once
 
 #include "lib/kernel/gpu_scene.h"

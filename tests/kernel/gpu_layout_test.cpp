@@ -1,4 +1,3 @@
-// Host and kernel have the same layout of push constants and the scene buffer.
 #include "lib/kernel/gpu_scene.h"
 #include "lib/scene/seen_scene.h"
 #include "push_layout.spv.h"
@@ -34,7 +33,6 @@ pt::Camera camera_at(glm::dvec3 position) {
     return {position, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, 0.25, 0.75};
 }
 
-// The order in the buffer is lamp, other spheres, planes.
 pt::Scene small_scene() {
     pt::Scene scene;
     scene.materials = {{{0.5F, 0.25F, 0}, {0, 0, 0}, {0, 0, 0}, 0},
@@ -59,7 +57,7 @@ TEST(GpuLayout, WhatTheSceneDoesNotUseIsNotInTheBuffer) {
     EXPECT_EQ(gpu_scene.words.size(), 9U);
 }
 
-// Curved planes precede flat ones. A lamp with a radius of 2048 times its distance becomes one.
+// Curved planes come before flat ones. A lamp with a radius of 2048 times its distance becomes a curved plane.
 TEST(GpuLayout, HugeSpheresArePlanesWithACurvature) {
     pt::Scene scene = small_scene();
     scene.spheres.push_back({{0, -1026, 1}, 1024, {0, 0, 0}, 0});
@@ -110,9 +108,9 @@ TEST(GpuLayout, OtherSpheresKeepTheirCenter) {
 
 TEST(GpuLayout, TheFilmUnitFollowsTheBrightestLampInUse) {
     pt::Scene scene = small_scene();
-    EXPECT_EQ(pt::PreparedScene(scene).film_unit, 0.5); // 90 is in [2^6, 2^7)
+    EXPECT_EQ(pt::PreparedScene(scene).film_unit, 0.5); // 90 is in [2^6, 2^7).
     scene.materials[2].emission = {1e14F, 0, 0};
-    EXPECT_EQ(pt::PreparedScene(scene).film_unit, 0x1p39); // 1e14 is in [2^46, 2^47)
+    EXPECT_EQ(pt::PreparedScene(scene).film_unit, 0x1p39); // 1e14 is in [2^46, 2^47).
     scene.spheres.pop_back();
     EXPECT_EQ(pt::PreparedScene(scene).film_unit, 1.0); // unused materials do not count
 }

@@ -1,4 +1,4 @@
-// Runs the path-tracing kernel on a small film, with the test's scene and constants.
+// Runs the path-tracing kernel on a small film. The test chooses scene and constants.
 #pragma once
 
 #include "lib/film/pixel_sums.h"
@@ -68,7 +68,7 @@ public:
         return film_by(probe);
     }
 
-    // The probe can render several films.
+    // Returns a probe that can render several films.
     Probe probe_of_kernel(const Constants &constants, std::uint32_t source, const std::vector<glm::vec4> &words) const {
         const auto values = with_scene_source(constants, source, words);
         Probe probe(pt::specialised_code(pt::embedded_code().pathtrace, values), sizeof frame_, values);

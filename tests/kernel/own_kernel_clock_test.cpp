@@ -1,4 +1,3 @@
-// When a scene gets its own kernel.
 #include "lib/kernel/own_kernel_clock.h"
 
 #include <gtest/gtest.h>

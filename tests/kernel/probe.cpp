@@ -16,7 +16,7 @@ void on_message(void * /*user*/, int32_t level, const char *line) {
         ADD_FAILURE() << "the Vulkan layer says: " << line;
 }
 
-// The device is chosen as pt_create() does.
+// The device that pt_create() would choose.
 struct SharedDevice {
     pt::Log log{&on_message, nullptr};
     pt::vulkan::Instance instance{log, std::getenv("PT_TEST_NO_VALIDATION") == nullptr};
@@ -43,7 +43,7 @@ constexpr pt::vulkan::Binding bindings[] = {{0, vk::DescriptorType::eUniformBuff
 constexpr std::size_t guard_bytes = 4096;
 constexpr std::byte guard_value{0xa5};
 constexpr std::uint32_t workgroup_size = 64;
-constexpr std::size_t scene_bytes = 16384; // every device's uniform buffers have these
+constexpr std::size_t scene_bytes = 16384; // Every device allows uniform buffers of this size.
 
 } // namespace
 

@@ -15,12 +15,12 @@
 
 pt::vulkan::Device &probe_device();
 
-// Probes have this ID_POINT_BLOCKS: 16 KiB, which every device offers.
+// Probes have this ID_POINT_BLOCKS. The points take 16 KiB, which every device allows.
 inline constexpr std::uint32_t probe_point_blocks = 1024;
 
 class Probe {
 public:
-    // constants[i] has the bits of specialization constant i. Missing ones keep the shaders' defaults.
+    // constants[i] has the bits of specialization constant i. Other constants keep the shaders' defaults.
     Probe(std::span<const std::uint32_t> spirv, std::uint32_t push_bytes,
           std::span<const std::uint32_t> constants = {});
 
@@ -32,8 +32,8 @@ public:
     }
     void set_points(std::span<const pt::PointBlock> blocks) { points_.assign(blocks.begin(), blocks.end()); }
 
-    // Runs one invocation per item, with the input at binding 3. Returns binding 2, which is initially zero. Guard
-    // words after it must survive.
+    // Runs one invocation per item with the input at binding 3. Returns binding 2, which is initially zero. The guard
+    // words after it must stay unchanged.
     template <typename Output, typename Push>
     std::vector<Output> run(std::span<const glm::vec4> input, std::size_t output_count, const Push &push,
                             std::uint32_t invocations) {
@@ -43,7 +43,7 @@ public:
         return output;
     }
 
-    // Like run(), but writes into the given output. Unwritten parts stay.
+    // Like run(), but writes into `output`. Parts that the kernel does not write stay unchanged.
     void run_over(std::span<const std::byte> input, std::span<std::byte> output, std::span<const std::byte> push,
                   std::uint32_t invocations);
 

@@ -1,4 +1,3 @@
-// Runs slices on a device as Accumulation requests them.
 #include "lib/render/render_device.h"
 #include "tests/kernel/coursework_gpu_scene.h"
 #include "tests/support/coursework_scene.h"
@@ -47,7 +46,7 @@ protected:
     }
 };
 
-constexpr std::array<std::uint32_t, 6> all_tiles = {0, 1, 2, 3, 4, 5}; // the last tiles are partial
+constexpr std::array<std::uint32_t, 6> all_tiles = {0, 1, 2, 3, 4, 5}; // The last tiles are smaller.
 
 std::array<double, 6> sums_of_tiles(const std::function<void(const pt::ErrorReader::Receive &)> &read) {
     std::array<double, 6> sums{};

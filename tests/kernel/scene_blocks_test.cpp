@@ -1,4 +1,3 @@
-// The scene buffer's length and shared materials.
 #include "lib/kernel/gpu_scene.h"
 #include "lib/kernel/scene_blocks.h"
 
@@ -20,7 +19,7 @@ pt::GpuScene row_of_balls(std::uint32_t count, std::uint32_t materials) {
     return pt::gpu_scene(pt::PreparedScene(scene), camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4});
 }
 
-// 341 surfaces of three words leave one word of the uniform buffer.
+// 341 surfaces of three words leave one word of the uniform buffer free.
 TEST(SceneBlocks, ShareMaterialsInScenesTooLargeForTheUniformBuffer) {
     const pt::GpuScene small = row_of_balls(341, 1);
     EXPECT_TRUE(small.features.scene_in_uniform());

@@ -1,4 +1,4 @@
-// Specialization constants that state where the kernel's scene is.
+// Specialization constants that say where the kernel's scene is stored.
 #pragma once
 
 #include "shaders/specialization.h"
@@ -21,7 +21,7 @@ inline std::vector<std::uint32_t> with_scene_source(std::span<const std::uint32_
     return result;
 }
 
-// Fills the buffer with wrong words if the scene is in constants.
+// If the scene is in constants, the buffer gets wrong words.
 inline void set_scene_for(Probe &probe, std::uint32_t source, std::span<const glm::vec4> words) {
     if (source == pt::gpu::SCENE_IN_CONSTANTS)
         probe.set_scene(std::vector<glm::vec4>(words.size(), glm::vec4(-77.0F)));

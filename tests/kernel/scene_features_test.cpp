@@ -1,4 +1,3 @@
-// Features that depend on geometry.
 #include "lib/kernel/gpu_scene.h"
 #include "lib/kernel/scene_features.h"
 #include "tests/support/checked_scene_of.h"
@@ -160,7 +159,7 @@ TEST(FeaturePlanesBlock, IsWhetherALampIsNotAllOnTheSideOfTheCamera) {
 TEST(FeaturePlanesBlock, IsByAnyPlaneAndAnyLamp) {
     const pt::Plane tilted = {{0.6, 0, 0.8}, 7 - glm::dot(glm::dvec3(0.6, 0, 0.8), eye), dark}; // 7 from the camera
     const pt::Sphere near = lamp_at({0, 1, -5}, 1);
-    const pt::Sphere far = lamp_at({-6, 1, -8}, 1); // 3 beyond it
+    const pt::Sphere far = lamp_at({-6, 1, -8}, 1); // 3 behind the tilted plane
     const pt::Sphere across = lamp_at({-4.2, 1, -5.6}, 1);
     const pt::Sphere high = lamp_at({0, 6, -5}, 1);
     EXPECT_FALSE(planes_block({near}, {tilted, floor_at(-4), floor_at(4)}));
@@ -215,7 +214,7 @@ TEST(FeatureSky, IsALampThatHoldsTheCamera) {
     EXPECT_EQ(counts({lamp_at({0, 3, 0}, 4, {0, 2, 0})}, {0, 0.4}), (Counts{0, 1}));
 }
 
-// The heights are depths of floors below the camera.
+// `heights` are the depths of floors below the camera.
 bool known_sides(const std::vector<pt::Sphere> &spheres, const std::vector<double> &heights) {
     std::vector<pt::Plane> planes;
     for (const double height : heights)

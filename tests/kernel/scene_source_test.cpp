@@ -64,7 +64,7 @@ InvarianceScene diffuse_scene() {
     return scene;
 }
 
-// Only such devices have several sources for a scene. On others, another source may round differently.
+// These devices can read a scene from several kinds of memory. On other devices, rounding may depend on the kind.
 class SceneSource : public testing::Test {
 protected:
     void SetUp() override {
@@ -82,9 +82,9 @@ TEST_F(SceneSource, KeepsTheBitsOfADiffuseSceneWithManyLamps) {
     EXPECT_TRUE(same.holds(gpu::SCENE_IN_UNIFORM, render.words()));
     EXPECT_TRUE(same.holds_in_storage());
 
-    // Negative control: the last bit of a radius.
+    // Negative control: the last bit of a radius changes.
     std::vector<glm::vec4> words = render.words();
-    float &radius = words[render.features()[gpu::ID_LAMP_COUNT]].w; // of the first ball
+    float &radius = words[render.features()[gpu::ID_LAMP_COUNT]].w; // radius of the first ball
     radius = std::nextafter(radius, std::numeric_limits<float>::infinity());
     EXPECT_FALSE(same.holds(gpu::SCENE_IN_UNIFORM, words));
     EXPECT_FALSE(same.holds(gpu::SCENE_IN_CONSTANTS, words));
@@ -126,7 +126,7 @@ TEST_F(SceneSource, KeepsTheBitsOfTwoEqualLamps) {
     const Comparison same(render);
     EXPECT_TRUE(same.holds(gpu::SCENE_IN_UNIFORM, render.words()));
 
-    // Negative control: the last bit of one radiance.
+    // Negative control: the last bit of one radiance changes.
     std::vector<glm::vec4> words = render.words();
     float &red = words[render.features().surface_count() + 1].r;
     red = std::nextafter(red, 0.0F);

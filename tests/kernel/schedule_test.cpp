@@ -1,4 +1,3 @@
-// Slices on simulated devices.
 #include "lib/render/schedule.h"
 
 #include "lib/render/tile_tasks.h"
@@ -29,7 +28,7 @@ Device constant_device(double paths_per_second) {
     return [=](double, double paths) { return overhead + paths / paths_per_second; };
 }
 
-// The speed falls to a tenth.
+// The speed falls to a tenth after `paths_until_then` paths.
 Device throttled_device(double paths_per_second, double paths_until_then) {
     return [=](double before, double paths) {
         return overhead + paths / (before < paths_until_then ? paths_per_second : 0.1 * paths_per_second);
@@ -52,7 +51,6 @@ struct Step {
     double paths() const { return pt::paths_of(tile_count, samples.count()); }
 };
 
-// Runs slices in the order of Accumulation.
 std::vector<Step> simulate(std::uint32_t tile_count, std::uint64_t samples, const pt::ScheduleLimits &limits,
                            const Device &device) {
     std::vector<std::uint32_t> all(tile_count);
@@ -131,15 +129,15 @@ double share_on_target(const std::vector<Step> &steps, const pt::ScheduleLimits 
 constexpr std::uint32_t full_hd = 240 * 135;
 
 TEST(Schedule, DoesAllWorkOnceNearTheTarget) {
-    const DeviceCase cases[] = {{"whole samples", 25 * 10, 20000, constant_device(1e8), 1.0},
-                                {"samples tile by tile", full_hd, 20, constant_device(1e6), 1.0},
-                                {"about a sample", 800, 300, constant_device(1.03e6), 1.0},
-                                {"a fast GPU", full_hd, 5000, constant_device(3e9), 1.0},
-                                {"speed falls to a tenth", full_hd, 400, throttled_device(1e8, 2e8), 0.99},
-                                {"speed falls below a sample", full_hd, 100, throttled_device(1e8, 5e7), 0.99},
-                                // Two slices' noises exceed a factor of 2 with the probability (1 - ln 2 / (2 ln
-                                // 1.5))^2 = 0.02.
-                                {"a noisy clock", 25 * 10, 200000, noisy_device(1e8), 0.95}};
+    const DeviceCase cases[] = {
+        {"whole samples", 25 * 10, 20000, constant_device(1e8), 1.0},
+        {"samples tile by tile", full_hd, 20, constant_device(1e6), 1.0},
+        {"about a sample", 800, 300, constant_device(1.03e6), 1.0},
+        {"a fast GPU", full_hd, 5000, constant_device(3e9), 1.0},
+        {"speed falls to a tenth", full_hd, 400, throttled_device(1e8, 2e8), 0.99},
+        {"speed falls below a sample", full_hd, 100, throttled_device(1e8, 5e7), 0.99},
+        // Two slices differ by a factor > 2 with the probability (1 - ln 2 / (2 ln 1.5))^2 = 0.02.
+        {"a noisy clock", 25 * 10, 200000, noisy_device(1e8), 0.95}};
     for (const DeviceCase &each : cases) {
         SCOPED_TRACE(each.name);
         const std::vector<Step> steps = simulate(each.tile_count, each.samples, usual_limits(), each.device);
@@ -156,7 +154,7 @@ TEST(Schedule, VerySlowDevicesGetOneTileAtATime) {
         ASSERT_EQ(steps[i].tile_count, 1U);
 }
 
-// The limit stands for a driver's limit of loop trips.
+// Some drivers limit loop rounds, so slices have a largest size.
 TEST(Schedule, VeryFastDevicesGetTheLargestSlice) {
     for (const std::uint32_t most : {3U, 1024U}) {
         pt::ScheduleLimits limits = usual_limits();
@@ -185,7 +183,6 @@ TEST(Schedule, SlicesAreLargerThanHalfOfTheBudget) {
     EXPECT_EQ(schedule.tiles(64, 4), 64U);
 }
 
-// Impossible times are ignored.
 TEST(Schedule, LearnsFromASliceOfFullSizeAtOnce) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
@@ -209,7 +206,7 @@ TEST(Schedule, LearnsFromASliceOfFullSizeAtOnce) {
     EXPECT_EQ(pt::Schedule({0.05, 0.25, 1}).budget(), 64.0);
 }
 
-// The time of a one-tile slice is all overhead. The device is 78 times as fast.
+// The time of a slice of one tile is mostly overhead. The device is 78 times as fast as the time suggests.
 TEST(Schedule, SmallSlicesChangeLittle) {
     pt::ScheduleLimits limits = usual_limits();
     limits.first_slice_paths = 5e6;
@@ -226,7 +223,6 @@ TEST(Schedule, WhatWasExpectedTeachesNothing) {
     EXPECT_EQ(schedule.budget(), 16384.0);
 }
 
-// Negative controls of the checks above.
 TEST(ScheduleJudge, SeesFaults) {
     pt::ScheduleLimits limits = usual_limits();
     limits.max_samples = 4;

@@ -105,7 +105,7 @@ TEST_F(ShaderSourceTest, AMissingFileIsNamed) {
     expect_complaint(shaders.file("pathtrace.comp") + ": No such file or directory");
     std::filesystem::remove_all(shaders.path());
     expect_complaint(shaders.file("pathtrace.comp") + ": No such file or directory");
-    std::filesystem::create_directory(shaders.path()); // removed with the test
+    std::filesystem::create_directory(shaders.path());
 }
 
 TEST_F(ShaderSourceTest, AFolderIsNoFile) {
@@ -114,7 +114,7 @@ TEST_F(ShaderSourceTest, AFolderIsNoFile) {
     expect_complaint(shaders.file("folder") + ": Is a directory");
 }
 
-// Include guards permit recursion.
+// Include guards permit recursion, so the compiler must limit it.
 TEST_F(ShaderSourceTest, AnEndlessIncludeIsRefused) {
     shaders.write("circle.glsl", "#ifndef CIRCLE\n#define CIRCLE\n#include \"arc.glsl\"\n#endif\n");
     shaders.write("arc.glsl", "#include \"circle.glsl\"\n#include \"circle.glsl\"\n");

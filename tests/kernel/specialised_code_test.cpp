@@ -1,4 +1,3 @@
-// SPIR-V after specialization.
 #include "lib/kernel/specialised_code.h"
 
 #include "lib/kernel/scene_features.h"
@@ -17,7 +16,7 @@ namespace {
 
 using Code = std::vector<std::uint32_t>;
 
-constexpr std::uint32_t last_about_others = 16; // names, entry points and modes end at this opcode
+constexpr std::uint32_t last_about_others = 16; // opcodes of names, entry points and modes end here
 constexpr std::uint32_t op_spec_constant_op = 52;
 constexpr std::uint32_t op_function = 54;
 constexpr std::uint32_t op_function_call = 57;

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-// Surface i's material index is component i mod 4 of word first_index_word + i / 4.
+// The material index of surface i is component i mod 4 of the word first_index_word + i / 4.
 inline std::size_t first_index_word(const pt::Features &features) {
     const std::size_t emitting =
         features.emitting_spheres() + (features[pt::gpu::ID_PLANES_EMIT] ? features[pt::gpu::ID_PLANE_COUNT] : 0);

@@ -1,4 +1,3 @@
-// Decides whether a scene gets its own kernel or a common one.
 #include "lib/kernel/trace_pipelines.h"
 
 #include "tests/vulkan/device_fixture.h"
@@ -15,7 +14,7 @@ namespace {
 
 using pt::vulkan::ComputePipeline;
 
-// The smallest kernel.
+// Features of the smallest kernel.
 pt::Features features_of_a_sphere(std::uint32_t sampler = PT_SAMPLER_RANDOM) {
     pt::Features features{};
     features[pt::gpu::ID_SPHERE_COUNT] = 1;
@@ -96,7 +95,7 @@ TEST_F(TracePipelinesTest, WhoPollsKeepsTheKernelThatThereIs) {
     EXPECT_NE(trace(other_ball, 100.0), any);
 }
 
-// The least recently used kernel is built again, perhaps at a reused address.
+// The least recently used kernel was dropped and is built again. The new one may have the same address.
 TEST_F(TracePipelinesTest, AHandfulIsKept) {
     use(false);
     const auto of_lamps = [&](std::uint32_t lamp_count) {

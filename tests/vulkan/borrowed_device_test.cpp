@@ -1,4 +1,3 @@
-// Borrowed devices: locks, waits, and a device that hangs.
 #include "lib/base/error.h"
 #include "lib/render/render_device.h"
 #include "lib/vulkan/buffer.h"
@@ -51,7 +50,7 @@ public:
     struct Counts {
         int locks, submissions, submissions_without_lock, waits_for_all;
         bool held;
-        VkResult failure; // if not VK_SUCCESS, returned instead of submitting
+        VkResult failure; // If this is not VK_SUCCESS, nothing is submitted.
     };
     static inline Counts counts{};
 
@@ -113,7 +112,6 @@ TEST_F(BorrowedDeviceTest, EverySubmissionHoldsTheQueue) {
     EXPECT_EQ(QueueSpy::counts.waits_for_all, 0);
 }
 
-// Negative control.
 TEST_F(BorrowedDeviceTest, WithoutALockNoSubmissionHoldsTheQueue) {
     render(false);
     EXPECT_GE(QueueSpy::counts.submissions, 2);
@@ -137,8 +135,8 @@ TEST_F(BorrowedDeviceTest, ASubmissionThatLosesTheDeviceLetsGoOfTheQueue) {
     EXPECT_EQ(QueueSpy::counts.submissions, 1);
 }
 
-#ifndef __SANITIZE_ADDRESS__ // deliberately leaks memory
-// The running work was given up, so neither its buffers nor the device may be destroyed.
+#ifndef __SANITIZE_ADDRESS__ // The test leaks memory on purpose.
+// The library stops waiting for the work, but the work still uses its buffers and the device.
 TEST_F(BorrowedDeviceTest, ADeviceThatHangsKeepsWhatItsWorkUses) {
     const CallerVulkan handles = this->handles(false);
     std::optional<Gate> gate(caller_->device());
@@ -170,7 +168,7 @@ TEST_F(BorrowedDeviceTest, ADeviceThatHangsKeepsWhatItsWorkUses) {
         EXPECT_EQ(loss.code(), PT_ERROR_DEVICE_LOST);
         EXPECT_TRUE(device.hangs());
     }
-    gate.reset(); // unlike a hung device, this one ends the work
+    gate.reset(); // ends the work, as no hung device would
     for (const std::string &line : messages_.take())
         ADD_FAILURE() << "destroyed too early: " << line;
     caller_.reset();

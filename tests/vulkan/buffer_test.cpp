@@ -1,4 +1,3 @@
-// Buffers: memory, transfers, bindings, and rejected requests.
 #include "lib/vulkan/buffer.h"
 #include "lib/vulkan/compute_pipeline.h"
 #include "lib/vulkan/device.h"
@@ -82,7 +81,7 @@ TEST_F(VulkanTest, ABufferLargerThanAnAllocationMayBeIsRefused) {
     EXPECT_EQ(device().allocated_bytes(), before);
 }
 
-#ifndef __SANITIZE_ADDRESS__ // the sanitizer's own memory exceeds any limit
+#ifndef __SANITIZE_ADDRESS__ // The sanitizer's own memory exceeds any limit.
 TEST_F(VulkanTest, AnAllocationThatTheDriverRefusesIsAnErrorWithoutTrace) {
     if (device().info().kind != PT_DEVICE_CPU)
         GTEST_SKIP() << "a limit on the process's memory limits CPU devices only";

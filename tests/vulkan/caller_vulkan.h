@@ -1,4 +1,4 @@
-// A program's own Vulkan, with the validation layer. See context_fixture.h for environment variables.
+// A program's own Vulkan, with the validation layer. context_fixture.h describes the environment variables.
 #pragma once
 
 #include "lib/vulkan/device_choice.h"
@@ -25,7 +25,7 @@ public:
         return std::exchange(lines_, {});
     }
 
-    template <typename Severity, typename Types, typename Data> // types of the C header or newer Vulkan-Hpp
+    template <typename Severity, typename Types, typename Data> // types of the C header or of newer Vulkan-Hpp
     static VKAPI_ATTR VkBool32 VKAPI_CALL receive(Severity /*severity*/, Types /*types*/, const Data *data,
                                                   void *user) {
         auto *messages = static_cast<LayerMessages *>(user);
@@ -103,7 +103,7 @@ private:
         return instance.createDebugUtilsMessengerEXT(messenger_info(messages));
     }
 
-    // The devices have the same order in instances of all versions.
+    // Devices have the same order in instances of all versions.
     static vk::raii::PhysicalDevice choose(const vk::raii::Instance &instance) {
         std::uint32_t count = 0;
         pt_get_devices(nullptr, &count);

@@ -1,4 +1,3 @@
-// Choices among invented devices, queue families and memory types.
 #include "lib/vulkan/caller_vulkan.h"
 #include "lib/vulkan/device_choice.h"
 #include "lib/vulkan/memory_type.h"
@@ -122,7 +121,6 @@ TEST(DeviceChoiceTest, NoDeviceIsChosenTwice) {
         EXPECT_TRUE(names(error, "create.device = \"" + twice + "\": must not name a device twice")) << error.what();
     }
     EXPECT_EQ(pt::vulkan::choose_devices(devices, "all"), (std::vector<std::size_t>{5, 6}));
-    // Drivers without UUIDs.
     const std::vector<pt_device_info> nameless = {invented(PT_DEVICE_CPU, "a"), invented(PT_DEVICE_CPU, "b")};
     EXPECT_EQ(error_of([&] { pt::vulkan::choose_devices(nameless, "1,1"); }).code(), PT_ERROR_INVALID_ARGUMENT);
     EXPECT_EQ(pt::vulkan::choose_devices(nameless, "0,1"), (std::vector<std::size_t>{0, 1}));

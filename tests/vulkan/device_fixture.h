@@ -1,5 +1,5 @@
-// An instance and a device without pt.h. Messages of the validation layer fail the test. See context_fixture.h for
-// environment variables.
+// An instance and a device without pt.h. If the validation layer reports anything, the test fails. context_fixture.h
+// describes the environment variables.
 #pragma once
 
 #include "lib/vulkan/device.h"
@@ -24,7 +24,7 @@ protected:
         instance_.emplace(log_, validation());
     }
 
-    // The layer reports leaks on destruction.
+    // The layer reports leaks when the device is destroyed.
     void TearDown() override {
         device_.reset();
         instance_.reset();

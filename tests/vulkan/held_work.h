@@ -5,7 +5,6 @@
 
 class Gate {
 public:
-    // The device must outlive the gate.
     explicit Gate(const vk::raii::Device &device) : device_(device), event_(device.createEvent({})) {}
     ~Gate() { open(); }
     Gate(const Gate &) = delete;

@@ -1,4 +1,3 @@
-// lib/vulkan/instance.* without drivers or layers.
 #include "lib/vulkan/instance.h"
 
 #include "lib/base/error.h"

@@ -1,4 +1,3 @@
-// Contexts on the caller's own Vulkan. Messages of its validation layer fail the test.
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
@@ -73,7 +72,6 @@ protected:
         return Context(created);
     }
 
-    // Returns "result name: message".
     static std::string refusal(const pt_create_info &info) {
         pt_context *created = nullptr;
         const pt_result result = pt_create(&info, &created);
@@ -167,7 +165,7 @@ TEST_F(OwnVulkanTest, TheQueueIsFreeWhileTheContextCallsBack) {
     EXPECT_EQ(observer.mutex.locks, observer.mutex.unlocks);
 }
 
-// Preparing submits an empty dispatch, because drivers may compile kernels only then.
+// pt_prepare submits an empty dispatch, because some drivers compile kernels only then.
 TEST_F(OwnVulkanTest, PreparingIsOneSubmission) {
     QueueMutex mutex;
     pt_vulkan vulkan = caller().handles();
@@ -179,7 +177,7 @@ TEST_F(OwnVulkanTest, PreparingIsOneSubmission) {
     EXPECT_EQ(mutex.locks, before + 1);
 }
 
-// A GPU estimates errors in the submissions that take samples.
+// A GPU estimates errors within the submissions of samples.
 TEST_F(OwnVulkanTest, LooksAtATargetAreNoSubmissions) {
     QueueMutex mutex;
     pt_vulkan vulkan = caller().handles();
@@ -289,7 +287,7 @@ TEST_F(OwnVulkanTest, TheInstanceMustHaveVersion1_2) {
     EXPECT_TRUE(context_on(newer.handles()));
 }
 
-// Negative control of all tests here.
+// Negative control.
 TEST_F(OwnVulkanTest, TheLayerReportsLeaks) {
     if (!CallersOwnVulkan::validation())
         GTEST_SKIP() << "the layer is off";

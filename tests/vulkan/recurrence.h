@@ -1,4 +1,3 @@
-// A kernel whose result the host knows.
 #pragma once
 
 #include "lib/vulkan/buffer.h"

@@ -1,4 +1,3 @@
-// Submissions: waiting, failures, and the validation layer's messages.
 #include "lib/vulkan/buffer.h"
 #include "lib/vulkan/device.h"
 #include "tests/vulkan/device_fixture.h"
@@ -48,7 +47,7 @@ TEST_F(VulkanTest, ADeviceThatDoesNotEndASubmissionIsLostForGood) {
                                   .invocations = 0,
                                   .queue_depth = 1});
     const Gate gate(device.handle());
-    Recurrence recurrence(device, 256); // It fits into its buffer, so the first submission is the last.
+    Recurrence recurrence(device, 256); // The work fits into one submission.
     const pt::Error loss = error_of([&] { device.submit([&](const auto &commands) { gate.record(commands); }); });
     EXPECT_EQ(loss.code(), PT_ERROR_DEVICE_LOST);
     EXPECT_TRUE(device.lost());
@@ -65,10 +64,10 @@ TEST_F(VulkanTest, ADeviceThatDoesNotEndASubmissionIsLostForGood) {
         EXPECT_EQ(error.code(), PT_ERROR_DEVICE_LOST);
         EXPECT_STREQ(error.what(), loss.what());
     }
-    gate.open(); // unlike a hung device, this one ends the work
+    gate.open(); // ends the work, as no hung device would
 }
 
-// After more trips than the budget a driver may end loops without an error.
+// After more rounds than the budget, a driver may end loops without an error.
 TEST_F(VulkanTest, KernelsRunAllLoopTripsOfTheBudget) {
     constexpr std::uint64_t enough = 1U << 20;
     const auto steps = static_cast<std::uint32_t>(std::min(device().limits().loop_trip_budget, enough));
@@ -120,7 +119,7 @@ TEST_F(VulkanTest, GpusAreWaitedForInBoundedTime) {
     EXPECT_TRUE(pt::vulkan::default_policy(info).scene_in_constants);
 }
 
-// Negative control of all tests here.
+// Negative control.
 TEST_F(VulkanTest, TheLayersMessagesReachTheLog) {
     if (!validation())
         GTEST_SKIP() << "the layer is off";

@@ -1,4 +1,3 @@
-// camera_direction and ray_through_lens.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 

@@ -1,4 +1,3 @@
-// Distances, and shadow rays before and behind the hit.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -7,8 +6,7 @@
 
 #include "items.glsl"
 
-// start: 0 anywhere, 1 on the sphere and outside, 2 inside. The center is also the plane's normal, the radius its
-// height.
+// start: 0 anywhere, 1 on the sphere and outside, 2 inside. For planes, center is the normal and radius the height.
 struct Item { vec4 center_radius; vec4 direction_start; };
 layout(set = 0, binding = 2) writeonly buffer Output { vec4 results[]; };
 layout(set = 0, binding = 3) readonly buffer Input { Item items[]; };

@@ -1,4 +1,3 @@
-// Adds per_pixel samples to each pixel.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 

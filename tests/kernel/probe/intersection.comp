@@ -1,4 +1,3 @@
-// Intersects rays and states the vertices.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -10,7 +9,7 @@ layout(local_size_x = WORKGROUP_SIZE) in;
 layout(push_constant) uniform Push { uint count; };
 
 struct Ray {
-    vec4 origin;    // w: 0 on no surface, 1 on surface 0 outside, -1 inside
+    vec4 origin;    // w: 0 on no surface, 1 outside on surface 0, -1 inside
     vec4 direction;
 };
 
@@ -18,7 +17,7 @@ struct Met {
     vec4 position_distance;
     vec4 normal;
     uint surface;
-    uint blocked; // of an endless shadow ray
+    uint blocked; // whether an endless shadow ray is blocked
     uint inside;
     uint unused;
 };

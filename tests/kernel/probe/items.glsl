@@ -1,4 +1,4 @@
-// A probe's items (host: tests/accuracy/evaluation.h).
+// Items of a probe (host: tests/accuracy/evaluation.h).
 #ifndef ITEMS_GLSL
 #define ITEMS_GLSL
 

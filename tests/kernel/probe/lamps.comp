@@ -1,4 +1,3 @@
-// Samples lamps from one vertex.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -12,8 +11,8 @@ layout(push_constant) uniform Push { vec4 position; vec4 normal_time; uint surfa
 struct Drawn {
     vec4 direction_distance;
     uint lamp;
-    float density;     // over solid angle, given the lamp
-    float hit_density; // of a direction that happens to hit the lamp
+    float density;     // of the direction per solid angle, if this lamp is chosen
+    float hit_density; // density of the direction if lamps are found by chance
     float probability;
 };
 

@@ -1,4 +1,3 @@
-// Copies every push constant out.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 

@@ -1,4 +1,3 @@
-// Evaluates sampling.glsl.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
