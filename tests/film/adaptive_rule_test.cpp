@@ -354,4 +354,22 @@ TEST(AdaptivePlan, ARoundThatIsUnderWayIsNotTheEnd) {
     EXPECT_FALSE(plan.next(film.samples, film.round).has_value());
 }
 
+// The error is on target at once.
+TEST(AdaptivePlan, ATargetIsNotReachedBeforeLampsAreHit) {
+    ModelFilm film{TileSamples(plan_grid, pt::SampleSet({0, 16})), {}, {}, false};
+    film.squares.assign(plan_grid.count(), 0.0);
+    std::vector<std::uint64_t> lamps(plan_grid.count());
+    const AdaptivePlan plan(goal_error, {1U << 30U, 1U << 30U},
+                            {[] {
+                                 return pt::ErrorEstimate{{}, {0.0, 0.0, goal_error / 2}, 0};
+                             },
+                             [&] { return film.squares; }, [&] { return lamps; }});
+    EXPECT_FALSE(plan.next(film.samples, film.round).has_value());
+    lamps[5] = 20;
+    const std::optional<TileStep> step = plan.next(film.samples, film.round);
+    ASSERT_TRUE(step.has_value());
+    EXPECT_EQ(step->tiles, std::vector<std::uint32_t>{5});
+    EXPECT_EQ(step->goal(5), 32U);
+}
+
 } // namespace

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace uncertain {
@@ -72,13 +73,16 @@ TEST_F(UncertainTest, WhileALobeIsHardlyMetByChance) {
     }
 }
 
+// Returns the radius of a lamp at distance 10.
+double lamp_of(double pixels) {
+    return 10.0 * 2.0 * std::tan(0.5) / height * std::sqrt(pixels / 3.14159);
+}
+
 // A visible lamp that covers a 20th of a pixel is hit .8 times by 16 samples, and 13 times by 256. Its light on other
 // surfaces is negligible.
-const double lamp_of_a_20th = 10.0 * 2.0 * std::tan(0.5) / height * std::sqrt(0.05 / 3.14159); // at distance 10
-
 TEST_F(UncertainTest, WhileSamplesHardlyMeetALampInView) {
     for (const bool in_view : {true, false}) {
-        set_up(lamp_of_a_20th, PT_ESTIMATOR_MIS, 2, {in_view ? 0.0 : 6.0, -10.0, 0.0}, 20.0);
+        set_up(lamp_of(1.0 / 20), PT_ESTIMATOR_MIS, 2, {in_view ? 0.0 : 6.0, -10.0, 0.0}, 20.0);
         EXPECT_EQ(after(16) & unmet, in_view ? unmet : 0U);
         EXPECT_EQ(after(240) & unmet, 0U);
     }
@@ -96,8 +100,11 @@ TEST_F(UncertainTest, NothingIsKnownOfAPictureThatIsBlackByChance) {
 
 // Everything else is black, so the target would seem to be reached at once.
 TEST_F(UncertainTest, NoTargetIsReachedBeforeALampInViewIsMet) {
-    for (const uint32_t sampling : {PT_SAMPLING_UNIFORM, PT_SAMPLING_ADAPTIVE}) {
-        set_up(lamp_of_a_20th, PT_ESTIMATOR_MIS, 1, {0.0, -10.0, 0.0}, 20.0);
+    for (const auto &[sampling, needed] : {std::pair{PT_SAMPLING_UNIFORM, 60U},
+                                           {PT_SAMPLING_UNIFORM, 120U},
+                                           {PT_SAMPLING_ADAPTIVE, 60U},
+                                           {PT_SAMPLING_ADAPTIVE, 120U}}) {
+        set_up(lamp_of(3.0 / needed), PT_ESTIMATOR_MIS, 1, {0.0, -10.0, 0.0}, 20.0);
         pt_accumulate_info info{};
         info.struct_size = sizeof info;
         info.sample_count = 32;
@@ -108,7 +115,7 @@ TEST_F(UncertainTest, NoTargetIsReachedBeforeALampInViewIsMet) {
         const std::vector<char> film = film_of(context());
         info.sample_count = 1000;
         EXPECT_EQ(pt_accumulate(context(), &info), PT_TARGET_REACHED);
-        EXPECT_GE(stats_of(context()).max_sample_count, 60U);
+        EXPECT_GE(stats_of(context()).max_sample_count, needed);
         const std::vector<float> image = values_of(context(), std::size_t{width} * height);
         EXPECT_GT(*std::ranges::max_element(image), 0.0F);
 
@@ -117,7 +124,7 @@ TEST_F(UncertainTest, NoTargetIsReachedBeforeALampInViewIsMet) {
         pt_film_info film_info{};
         film_info.struct_size = sizeof film_info;
         EXPECT_EQ(pt_get_film_info(opened, &film_info), PT_OK);
-        EXPECT_EQ(film_info.lamp_sample_count, 60U);
+        EXPECT_EQ(film_info.lamp_sample_count, needed);
         std::array<uint32_t, 16> goals{};
         uint32_t count = goals.size();
         EXPECT_EQ(pt_plan_film(opened, info.target_error, 1000, goals.data(), &count), PT_PENDING);
