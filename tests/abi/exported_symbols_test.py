@@ -1,5 +1,5 @@
-"""Checks libpt's exported symbols and soname: exported_symbols_test.py LIBRARY ARCHIVE HEADERS LIST C_COMPILER.
-HEADERS is a folder. A missing symbol breaks programs, and a new symbol is a promise."""
+"""Checks libpt's exported symbols and soname: exported_symbols_test.py LIBRARY ARCHIVE HEADERS LIST C_COMPILER. HEADERS is a folder.
+Programs break without a symbol that they use, so every symbol is a promise."""
 
 import pathlib
 import re
@@ -16,7 +16,7 @@ def output(*command):
 
 
 def symbols_of(path, *options):
-    """Returns the defined global names, by nm."""
+    """Global names that nm shows as defined."""
     lines = output("nm", "--defined-only", "--format=posix", *options, path).splitlines()
     return {line.split()[0] for line in lines if len(line.split()) > 2}
 
@@ -57,7 +57,7 @@ def build(folder, compiler, source, soname):
 
 
 def check_the_check(compiler):
-    """Negative control: symbols added, missing or renamed."""
+    """Negative control: symbols are added, missing or renamed."""
     one, two = "int pt_one(void) { return 1; }\n", "int pt_two(void) { return 2; }\n"
     everywhere = ("headers", "shared library", "static library")
     with tempfile.TemporaryDirectory() as name:

@@ -32,7 +32,6 @@ def structs_of(headers):
 
 
 def program_for(structs, includes):
-    """Returns a C program that prints "struct size" and "struct.member offset size"."""
     lines = ["#include <stddef.h>", "#include <stdio.h>", *(f"#include <pt/{name}>" for name in includes),
              "int main(void) {"]
     for struct, members in structs:
@@ -44,7 +43,6 @@ def program_for(structs, includes):
 
 
 def layout_of(headers, compiler):
-    """`headers` maps names to texts."""
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         (folder / "pt").mkdir()
@@ -71,7 +69,7 @@ def python_layout(structs):
 
 
 def packed(layout):
-    """Returns the table's text: a line for each struct, with its size and with the offset and size of each member."""
+    """The table's text. Each line has a struct, its size, and the offset and size of each member."""
     return re.sub(r"\n\w+\.", ", ", "\n".join(layout))
 
 
@@ -85,7 +83,7 @@ def differences(found, table):
 
 
 def check_the_check(headers, table, compiler):
-    """Negative control: members at the end, in the middle, of another type, renamed, and removed."""
+    """Negative control: a member at the end, in the middle, of another type, renamed, or removed."""
     for old, new, wanted in (
         ("uint32_t row_count;", "uint32_t row_count; uint64_t more;", "+ pt_render.more 48 8"),
         ("double offset;", "double before; double offset;", "+ pt_plane.offset 32 8"),

@@ -1,5 +1,5 @@
-// Compares films of the shipped scenes with tests/data/film_checksums.txt. Only changes of radiance may change the
-// checksums.
+// Compares films of the shipped scenes with tests/data/film_checksums.txt. A change of code may change checksums only
+// if it changes radiance.
 #include "cli/scene/scene.h"
 #include "lib/base/digest.h"
 #include "tests/support/context_calls.h"
@@ -38,7 +38,7 @@ std::string checksum_of(const std::vector<Number> &numbers) {
     return hexadecimal(pt::checksum(std::as_bytes(std::span(numbers))));
 }
 
-// Leaves out the identity, which names the kernels, and the film's own checksum.
+// The identity names the kernels. It is left out, as is the film's own checksum.
 std::string checksum_of_sums(const std::vector<char> &film) {
     const std::size_t first = std::string_view(film.data(), film.size()).find("\ntile ");
     return hexadecimal(pt::checksum(std::as_bytes(std::span(film).first(film.size() - 8).subspan(first))));
@@ -59,14 +59,14 @@ protected:
         ASSERT_EQ(pt_accumulate(on, &info), PT_OK) << pt_last_error(on);
     }
 
-    // Takes equal samples in all tiles, then more samples in some tiles. Single rows, and a film that is saved and
-    // continued, must have the same bits.
+    // All tiles take equal samples, then some tiles take more. Rows alone, or a film that is saved and continued, must
+    // have the same bits.
     static std::string checksums(pt_context *on, const cli::SceneFile &file, std::uint32_t sampler) {
         const pt_scene scene = file.scene();
         pt_render render = render_of(width, height, std::min(file.render.max_path_length, 4U));
         render.sampler = sampler;
         set_picture(on, scene, file.camera, render);
-        take(on, 5); // the split moves later
+        take(on, 5); // The film is split at another sample.
         take(on, 20);
         const std::vector<char> begun = film_of(on);
         take(on, 15);
@@ -120,7 +120,7 @@ std::vector<std::string> lines_of(const std::string &device) {
     return lines;
 }
 
-// Each way is combined with each sampler. With PT_TEST_MANY, all ways run for each scene.
+// Each way is combined with each sampler. PT_TEST_MANY runs every way for every scene.
 TEST_F(FilmChecksums, AreThoseOfBefore) {
     constexpr const char *samplers[] = {"random", "halton", "halton-cp", "sobol"};
     std::vector<std::filesystem::path> scenes;

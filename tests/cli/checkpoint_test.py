@@ -30,7 +30,7 @@ class KeptRender(CommandLineTest):
         return found
 
     def samples_kept(self, name):
-        """Returns 0 without a checkpoint. An existing checkpoint must be whole."""
+        """Returns 0 without a checkpoint. A damaged checkpoint fails the test."""
         if not os.path.exists(self.path(name)):
             return 0
         self.expect(0, "merge", name, "--stats", "-", "-q")
@@ -79,7 +79,7 @@ class KilledRender(KeptRender):
         self.assertIn('"fraction"', process.stderr.readline())
         process.send_signal(signal.SIGTERM)
         errors = process.communicate(timeout=PATIENCE)[1]
-        self.assertIn(process.returncode, (0, 143), errors)  # 0: it ended before the signal
+        self.assertIn(process.returncode, (0, 143), errors)  # 0 if it ended before the signal
         self.assertEqual("--resume continues from c.ptfilm" in errors, process.returncode == 143)
         self.assertGreater(self.samples_kept("c.ptfilm"), 0)
         self.expect(0, *options, "--checkpoint", "c.ptfilm", "--resume")
@@ -105,8 +105,8 @@ class KilledRender(KeptRender):
 
 
 class Surroundings(KeptRender):
-    """Errors may cost the checkpoint, but never the picture."""
-    made = []  # rendered once
+    """Errors may cost the checkpoint, but not the picture."""
+    made = []
 
     def setUp(self):
         super().setUp()
@@ -151,7 +151,7 @@ class Surroundings(KeptRender):
 class Resume(CommandLineTest):
     program = PT
     small = ("render", COURSEWORK, "--size", "16x8", "-q")
-    made = {}  # rendered once
+    made = {}
 
     def setUp(self):
         super().setUp()
@@ -181,7 +181,7 @@ class Resume(CommandLineTest):
         self.assertEqual(self.contents("a.png"), self.contents("whole.png"))
 
     def test_a_crop_goes_on_too(self):
-        """A checkpoint has whole rows. Other columns may be shown, but other rows need another film."""
+        """A checkpoint has whole rows, so another crop may show other columns of it. Other rows need another film."""
         crop = ["--checkpoint", "crop.ptfilm", "--crop"]
         self.expect(0, *self.small, "-o", "half.png", "--spp", "12", *crop, "2,3,5,4")
         for part in "2,3,5,4", "0,3,16,4":

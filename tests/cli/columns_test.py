@@ -103,7 +103,7 @@ class RealDevice(ColumnsTest):
                 for name, lines in expected.items():
                     for line, other in zip(lines, found[name]):
                         for a, b in zip(line, other):
-                            # The library decodes sRGB to float32, and one ulp of a color changes the light by one ulp.
+                            # The library decodes sRGB to float32. One ulp of a color changes the light by one ulp.
                             self.assertLessEqual(abs(a - b), 2**-20 * abs(a))
 
     def test_columns_are_the_capsules_that_they_list(self):

@@ -1,4 +1,4 @@
-"""Runs the program in an empty folder. Most cases use fake_library.cpp, which needs no device. Classes named RealDevice use the program itself."""
+"""Runs the program in an empty folder. Most cases use fake_library.cpp, which needs no device. Classes named RealDevice use the real libpt."""
 
 import os
 import pathlib
@@ -16,7 +16,7 @@ PT, FAKE_PT = os.environ["PT_PROGRAM"], os.environ["PT_FAKE_PROGRAM"]
 SCENES = str(pathlib.Path(__file__).resolve().parents[2] / "cli/scenes")
 COURSEWORK = os.path.join(SCENES, "coursework-diffuse.json")  # gives no warnings
 
-# A program counts as hung after this many seconds. Expected events come much sooner on any machine, or never.
+# A program counts as hung after this time, in seconds. All expected events come much sooner.
 PATIENCE = 600
 
 RESULT = {"INVALID_ARGUMENT": -1, "INVALID_SCENE": -2, "INVALID_STATE": -3, "UNSUPPORTED": -4, "NO_DEVICE": -5,
@@ -25,7 +25,7 @@ RESULT = {"INVALID_ARGUMENT": -1, "INVALID_SCENE": -2, "INVALID_STATE": -3, "UNS
 
 
 def npy(type_code, shape, numbers, version=1):
-    """Writes a file like numpy.save."""
+    """Writes a file as numpy.save does."""
     head = f"{{'descr': '{type_code}', 'fortran_order': False, 'shape': {shape}, }}\n".encode()
     size = struct.pack("<H" if version == 1 else "<I", len(head))
     letter = {"<f4": "f", "<f8": "d", "|u1": "B"}[type_code]
@@ -33,7 +33,7 @@ def npy(type_code, shape, numbers, version=1):
 
 
 def default_signals():
-    """A shell's background jobs inherit an ignored SIGINT, and the program keeps it ignored."""
+    """A shell's background jobs inherit an ignored SIGINT, which the program would keep ignored."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, signal.SIG_DFL)
 
@@ -79,7 +79,7 @@ class CommandLineTest(unittest.TestCase):
         return process.returncode
 
     def expect(self, code, *arguments, error=None, **environment):
-        """Each line of a failure must begin with the program's name. The lines must contain `error`."""
+        """Each line of stderr must begin with the program's name. One must contain `error`."""
         self.assertEqual(self.run_pt(*arguments, **environment), code, self.errors)
         if code != 0:
             self.assertNotEqual(self.errors, "")

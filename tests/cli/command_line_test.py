@@ -140,7 +140,7 @@ class Outputs(CommandLineTest):
         self.assertEqual(sorted(stats["seconds"]), ["accumulate", "create", "device", "total"])
 
     def test_tone_mapping_reaches_the_pixels(self):
-        # The stand-in's picture has red 0, 0.5, 1 from left to right, green 0 to 1 from top to bottom, and blue 2.
+        # The fake library's picture: red is 0, 0.5 and 1 from left to right, green is 0 to 1 from top to bottom, and blue is 2.
         def pixels(*options):
             exposure = [] if "--exposure" in options else ["--exposure", "0"]
             self.expect(0, "render", COURSEWORK, "-o", "a.png", "--size", "3x2", "--spp", "1", *exposure, *options)
@@ -150,8 +150,7 @@ class Outputs(CommandLineTest):
                                            [0, 255, 255, 188, 255, 255, 255, 255, 255]]))
         self.assertEqual(pixels("--gamma", "1")[2][0], [0, 0, 255, 128, 0, 255, 255, 0, 255])
         self.assertEqual(pixels("--gamma", "1", "--exposure", "-2")[2][0], [0, 0, 128, 32, 0, 128, 64, 0, 128])
-        # The luminance of (0, 0, 2) is 0.1444, so blue is 2 / 1.1444, which is clipped. The luminance of (0.5, 0, 2) is
-        # 0.2507, so red is 0.5 / 1.2507.
+        # (0, 0, 2) has the luminance 0.1444, so blue is 2 / 1.1444, which is clipped. (0.5, 0, 2) has 0.2507, so red is 0.5 / 1.2507.
         self.assertEqual(pixels("--gamma", "1", "--tonemap", "reinhard")[2][0][:6], [0, 0, 255, 102, 0, 255])
 
     def test_the_exposure_that_is_shown_gives_the_same_picture(self):
@@ -256,7 +255,7 @@ class RealDevice(CommandLineTest):
 
 class Warnings(CommandLineTest):
     def warnings(self, *options, scene="s.json", **environment):
-        """With --stats, stderr has each warning once. With -q it has none."""
+        """With --stats, stderr has each warning once. With -q stderr is empty."""
         arguments = ["render", scene, "-o", "a.png", "--size", "8x4", "--stats", "stats.json", *options]
         self.expect(0, *arguments, **environment)
         told = json.loads(self.read("stats.json"))["warnings"]

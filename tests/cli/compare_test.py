@@ -13,7 +13,7 @@ MSE, RELATIVE_MSE = 1 / 3, 1 / (4 + 0.01) / 3
 
 
 class Compare(CommandLineTest):
-    made = {}  # images, rendered once
+    made = {}  # images that are rendered once
 
     def setUp(self):
         super().setUp()
@@ -45,14 +45,14 @@ class Compare(CommandLineTest):
 
         maximum = signal(3) - signal(2)
         figures = self.figures("a.png", "r.png")
-        self.assertAlmostEqual(figures["maximum"], maximum, delta=1e-7)  # of float32
+        self.assertAlmostEqual(figures["maximum"], maximum, delta=1e-7)  # float32
         self.assertAlmostEqual(figures["mse"], maximum ** 2 / 3, delta=1e-7)
 
     def test_limits(self):
         for option, figure, name in (("--max-mse", MSE, "mse"), ("--max-relative-mse", RELATIVE_MSE, "relative_mse"),
                                      ("--max-difference", 1, "maximum")):
             with self.subTest(option=option):
-                below, above = repr(figure * (1 - 1e-12)), repr(figure * (1 + 1e-12))  # rounding of sums
+                below, above = repr(figure * (1 - 1e-12)), repr(figure * (1 + 1e-12))  # sums may be rounded
                 self.expect(0, "compare", "a.exr", "r.exr", option, above)
                 self.expect(8, "compare", "a.exr", "r.exr", option, below)
                 self.assertEqual(len(self.errors.splitlines()), 1)
@@ -141,7 +141,7 @@ class LightOnDevice(CommandLineTest):
             self.assertLess(verdict["regions"][0]["difference"][0], 0)
             width, height, rows = read_png(self.path("d.png"))
             self.assertEqual((width, height), (64, 48))
-            self.assertEqual(rows[47][2::3], [255] * 64)  # blue is the limit: the floor is darker
+            self.assertEqual(rows[47][2::3], [255] * 64)  # The floor is darker than the limit, which is blue.
             self.assertLess(max(rows[47][0::3]), 255)
 
     def test_what_cannot_be_tested(self):

@@ -1,4 +1,4 @@
-"""Tests the steps of shaders/COURSEWORK.md. Each diff must apply, and its picture must match other renderers."""
+"""Tests the steps of shaders/COURSEWORK.md. Each diff must apply, and its picture must agree with other renderers."""
 
 import os
 import shutil
@@ -11,12 +11,11 @@ from command_line import PT, SCENES, CommandLineTest, read_exr_channels
 
 ROOT = os.path.join(SCENES, "..", "..")
 REFERENCES = os.path.join(ROOT, "tests", "reference")
-# Each step has name, scene, path length and converged image.
 STEPS = (("1-light", "coursework", 1, "coursework_L1"), ("2-directions", "coursework-diffuse", 2, "coursework-diffuse_L2"),
          ("3-paths", "coursework-diffuse", 6, "coursework-diffuse_L6"), ("4-gloss", "coursework", 6, "coursework_L6"),
          ("5-points", "coursework", 6, "coursework_L6"), ("6-lamps", "coursework", 6, "coursework_L6"),
          ("7-motion", "coursework-motion", 2, None))
-MOST_CHANGE = 0.15  # of all light; the samples of every step show one
+MOST_CHANGE = 0.15  # of all light; every step changes more
 
 
 def pixels_of(path):

@@ -1,9 +1,12 @@
-// A stand-in for libpt that needs no device and fails on demand. Variables: FAKE_PT_FAIL=function:result fails the
-// function. FAKE_PT_FAIL=name:1 makes the device's name invalid UTF-8, and name:2 puts an escape into it.
-// FAKE_PT_MESSAGE is the message of failures. FAKE_PT_SAMPLE_MS is the minimum duration of a sample.
-// FAKE_PT_SIGNAL=number:n sends a signal at the start of submission n, and there are four submissions per sample.
-// FAKE_PT_SCENE_SIGNAL=number sends it during pt_set_scene. FAKE_PT_LOG=function logs a line. FAKE_PT_ALLOCATION=number
-// fails an allocation of the program.
+// Replaces libpt, needs no device and fails on demand. Environment variables:
+// FAKE_PT_FAIL=function:result  fails the function
+// FAKE_PT_FAIL=name:1           the device's name is invalid UTF-8; name:2: it has an escape
+// FAKE_PT_MESSAGE               message of failures
+// FAKE_PT_SAMPLE_MS             least duration of a sample
+// FAKE_PT_SIGNAL=number:n       signal at the start of submission n; a sample has four submissions
+// FAKE_PT_SCENE_SIGNAL=number   signal during pt_set_scene
+// FAKE_PT_LOG=function          logs a line in the function
+// FAKE_PT_ALLOCATION=number     fails this allocation of the program
 #include <pt/accuracy.h>
 #include <pt/devices.h>
 #include <pt/errors.h>
@@ -79,12 +82,12 @@ void raise_wanted_signal() {
         std::raise(std::stoi(wanted));
 }
 
-// The error is unknown at first.
+// The error of a few samples is unknown.
 double fake_error(std::uint32_t sample_count) {
     return sample_count < 16 ? std::numeric_limits<double>::infinity() : 1.0 / sample_count;
 }
 
-// Counts allocations from main, which begins by setting a terminate handler.
+// Counts allocations from main() on, which begins by setting a terminate handler.
 bool is_failing_allocation() {
     static const std::terminate_handler before_main = std::get_terminate();
     static const char *const wanted = std::getenv("FAKE_PT_ALLOCATION");
@@ -219,8 +222,8 @@ pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *info) {
     return PT_OK;
 }
 
-// Red increases from 0 to 1 to the right, and green downwards. Blue is 2, but with FAKE_PT_FAIL=split:1 it depends on
-// the calls. For other quantities, pixels have their position as the value. Objects are numbered row by row.
+// Red increases from 0 to 1 to the right, and green downwards. Blue is 2, but with FAKE_PT_FAIL=split:1 the number of
+// calls changes blue. Other quantities have the pixel's position as the value. Objects are numbered row by row.
 pt_result pt_readback(pt_context *context, const pt_image *image) {
     const pt_render &render = context->render;
     auto *object = static_cast<std::uint32_t *>(image->data);
@@ -275,7 +278,7 @@ pt_result pt_add_film(pt_context *context, const void *data, std::uint64_t size_
     return call(context, "add_film");
 }
 
-// Returns one function, whose error is far below its bound. With FAKE_PT_FAIL=accuracy_bound:1 its error is above it.
+// The table has one function. The error is far below the bound, or above it with FAKE_PT_FAIL=accuracy_bound:1.
 pt_result pt_get_accuracy(pt_context *context, pt_function_accuracy *rows, std::uint32_t *count) {
     if (rows != nullptr && *count > 0) {
         pt_function_accuracy row{};

@@ -19,7 +19,6 @@ std::span<const std::byte> bytes(std::string_view text) {
     return std::as_bytes(std::span(text));
 }
 
-// Returns the message, or an empty string.
 std::string write_refusal(const std::string &path) {
     const Refusal refused = refusal_of([&] { AtomicFile::check_writable(path); });
     EXPECT_TRUE(refused.message.empty() || refused.code == cli::ExitCode::file);
@@ -64,7 +63,7 @@ TEST(AtomicFile, KeepsPermissionsAndLinks) {
     EXPECT_EQ(status.st_mode & 0777, 0640U);
 }
 
-// The cases come from protected_symlinks in proc_sys_fs(5). The links of root are given to another user.
+// protected_symlinks in proc_sys_fs(5) lists these cases. The test's links of root get another owner.
 TEST(AtomicFile, FollowsNoOneElsesLinksWhereEverybodyMayWrite) {
     if (geteuid() != 0)
         GTEST_SKIP() << "only root can make links that belong to others";

@@ -52,7 +52,7 @@ class StandardStreams(CommandLineTest):
 
 
 class SameFiles(CommandLineTest):
-    """Files are refused before a device is created, which would fail."""
+    """The program must refuse these files before it creates a device, which would fail."""
 
     def refuse(self, error, *arguments, command="render"):
         before = {name: self.contents(name) for name in self.files()}
@@ -109,7 +109,7 @@ class SameFiles(CommandLineTest):
                         *arguments, "a.png", "--stats", "shaders/pathtrace.comp", *watch)
             self.refuse("-o ./shaders/a.png: is in the folder of --shader-dir shaders, whose files are read",
                         *arguments, "./shaders/a.png", *watch)
-        self.expect(0, "render", *arguments, "shaders/folder/a.png")  # no shader
+        self.expect(0, "render", *arguments, "shaders/folder/a.png")  # not a shader
 
     def test_distinct_files_are_distinct(self):
         os.mkdir(self.path("a"))
@@ -130,7 +130,7 @@ class SameFiles(CommandLineTest):
 
 @unittest.skipUnless(os.geteuid() == 0, "needs root, for a second user")
 class LinksOfOthers(CommandLineTest):
-    """Links of other users in folders like /tmp must not mislead root."""
+    """Other users' links in folders like /tmp must not mislead root."""
     RULE = "is another user's, in a folder where everybody may write; only your own links"
 
     def test_they_are_refused_before_anything_is_rendered(self):

@@ -17,7 +17,7 @@ TEST(FilmFile, IsReadUnpacked) {
 
 TEST(FilmFile, AnAbsurdSizeIsRefused) {
     const TemporaryFolder folder;
-    std::string frame("\x28\xb5\x2f\xfd\xc0\x00", 6); // RFC 8878, 3.1.1.1: the content size follows in eight bytes
+    std::string frame("\x28\xb5\x2f\xfd\xc0\x00", 6); // RFC 8878, 3.1.1.1: the size follows in eight bytes
     frame.append("\x00\x00\x00\x00\x00\x01\x00\x00", 8);
     frame.append(20, 'x');
     folder.write("a", frame);

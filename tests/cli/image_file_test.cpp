@@ -63,7 +63,7 @@ TEST(ImageFile, ExrKeepsEveryBit) {
     const std::vector<float> radiance{
         0.0F,     0.1F,   1.0F / 3.0F, std::numeric_limits<float>::max(), std::numeric_limits<float>::denorm_min(),
         135.0F,   1e-30F, 2.0F,
-        65504.5F, // beyond half precision
+        65504.5F, // above the largest float16
         5.0F,     6.0F,   7.0F};
     write_main_layer(folder.file("a.exr"), cli::whole_window(2, 2), radiance);
     EXPECT_EQ(read_pixels<float>(folder.file("a.exr"), OIIO::TypeDesc::FLOAT), radiance);
@@ -89,7 +89,7 @@ TEST(ImageFile, ALayerIsReadByItsName) {
     EXPECT_EQ(image.layer(""), std::vector<float>(main.begin(), main.end()));
     EXPECT_EQ(image.layer("error"), std::vector<float>(error.begin(), error.end()));
     EXPECT_EQ(image.layer("N"), image.layer("error"));
-    EXPECT_EQ(image.layer("id"), (std::vector<float>{0.0F, 0.0F, 0.0F, 1.0F, 1.0F, 1.0F})); // integers become fractions
+    EXPECT_EQ(image.layer("id"), (std::vector<float>{0.0F, 0.0F, 0.0F, 1.0F, 1.0F, 1.0F})); // scaled to [0, 1]
     EXPECT_EQ(image.layer("count"), (std::vector<float>{16.0F, 16.0F, 16.0F, 32.0F, 32.0F, 32.0F}));
 }
 

@@ -138,7 +138,7 @@ class EqualRuns(CommandLineTest):
         return [self.contents(path) for path in paths]
 
     def test_images_do_not_tell_when_they_were_rendered(self):
-        # Dates have a resolution of a second. The stand-in takes one millisecond per sample, then two.
+        # Times of files have a resolution of a second. Samples take one millisecond, then two.
         first = self.images("first", FAKE_PT_SAMPLE_MS=1)
         time.sleep(1.1)
         self.assertEqual(self.images("second", FAKE_PT_SAMPLE_MS=2, TZ="Pacific/Auckland"), first)
@@ -178,7 +178,7 @@ class Tonemap(ImagesTest):
                 self.assertEqual(self.scan_of("b.jpg"), self.scan_of("a.jpg"))
 
     def scan_of(self, name):
-        """Returns a JPEG from its quantisation tables on, without metadata."""
+        """Returns the JPEG without metadata: everything from the quantisation tables on."""
         data = self.contents(name)
         return data[data.index(b"\xff\xdb"):]
 

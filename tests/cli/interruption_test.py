@@ -15,7 +15,7 @@ class Interruption(CommandLineTest):
                            FAKE_PT_SIGNAL=f"{int(signal.SIGINT)}:{submission}", **environment)
 
     def test_a_terminal_that_goes_away(self):
-        """A closing terminal sends SIGHUP to its foreground process group. Later writes to the terminal fail."""
+        """A terminal that closes sends SIGHUP to its foreground processes. Later writes to the terminal fail."""
         try:
             ours, theirs = pty.openpty()
         except OSError as error:  # a chroot without /dev/pts
@@ -56,7 +56,7 @@ class Interruption(CommandLineTest):
     def test_a_scene_that_is_being_taken_over(self):
         self.write("a.png", "old")
         code = self.run_pt("render", COURSEWORK, "-o", "a.png", "--spp", "200", FAKE_PT_FAIL="set_camera:-10",
-                           FAKE_PT_SCENE_SIGNAL=int(signal.SIGTERM))  # the call fails unless the signal stops the program
+                           FAKE_PT_SCENE_SIGNAL=int(signal.SIGTERM))  # If the signal does not stop the program, this call fails.
         self.assertEqual(code, 143)
         self.assertEqual(self.errors, "pt: stopped by SIGTERM after 0 of 200 samples per pixel; nothing was written\n")
         self.assertEqual(self.read("a.png"), "old")

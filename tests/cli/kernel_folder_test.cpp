@@ -43,7 +43,7 @@ TEST(KernelFolder, KeysLeadNowhereElse) {
     EXPECT_EQ(temporary.count(), 2);
 }
 
-// The test sets file times, since a file system's clock may be too coarse.
+// The test sets the times of files, because a file system's clock may be too coarse.
 TEST(KernelFolder, WhatWasUsedLongestAgoMakesPlace) {
     const TemporaryFolder temporary;
     const KernelFolder folder(temporary.file("kernels"));

@@ -7,7 +7,7 @@ from command_line import COURSEWORK, PT, CommandLineTest
 class RealDeviceKernels(CommandLineTest):
     program = PT
 
-    # Mesa's cache is disabled, since it prints messages.
+    # Mesa's cache is off, because it prints messages.
     def render(self, name="a.png", **environment):
         self.expect(0, "render", COURSEWORK, "-o", name, "--size", "32x16", "--spp", "2", "-q",
                     MESA_SHADER_CACHE_DISABLE="true", **environment)

@@ -11,12 +11,12 @@ with open(os.path.join(os.path.dirname(SCENES), "README.md"), encoding="utf-8") 
 
 SECTIONS = {"camera": "{%s}", "film": "{%s}", "render": "{%s}", "materials": '{"a": {%s}}',
             "spheres": "[{%s}]", "capsules": "[{%s}]", "planes": "[{%s}]"}
-# Keys that are required in addition to the tested one.
+# Keys that examples need in addition to the tested key.
 REQUIRED = {"camera": {"position": [0, 0, 1], "look_at": [0, 0, 0]},
             "spheres": {"center": [0, 0, -5], "radius": 1, "material": "red"},
             "capsules": {"center": [0, 0, -5], "end": [1, 0, -5], "radius": 1, "material": "red"},
             "planes": {"normal": [0, 1, 0], "offset": 0, "material": "red"}}
-# Keys that exclude each other. Examples are tried without both.
+# Keys that exclude each other. Examples contain neither.
 EITHER = {"camera": (["vertical_fov", "aperture", "focus"], ["projection", "vertical_extent"])}
 
 
@@ -40,7 +40,7 @@ def number_of(text):
 
 
 def range_of(cell):
-    """Returns (0.1, 10) for "from 0.1 to 10", and None without such a range."""
+    """Returns (0.1, 10) for "from 0.1 to 10", or None for other cells."""
     found = re.search(r"from (-?[\d.e^-]+) to (-?[\d.e^-]+(?: - 1)?)(?:,|$)", cell)
     return found and (number_of(found[1]), number_of(found[2]))
 

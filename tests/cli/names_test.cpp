@@ -25,11 +25,11 @@ TEST(ValueNames, EveryMethodHasAName) {
 constexpr std::array<std::string_view, 4> known{"center", "radius", "material", "motion"};
 
 TEST(Suggestion, FindsCommonMisspellings) {
-    EXPECT_EQ(pt::nearest_name("raduis", known), "radius"); // a swap
+    EXPECT_EQ(pt::nearest_name("raduis", known), "radius"); // two letters swapped
     EXPECT_EQ(pt::nearest_name("centre", known), "center");
-    EXPECT_EQ(pt::nearest_name("materials", known), "material"); // one too many
-    EXPECT_EQ(pt::nearest_name("moton", known), "motion");       // one too few
-    EXPECT_EQ(pt::nearest_name("Radius", known), "radius");      // case
+    EXPECT_EQ(pt::nearest_name("materials", known), "material"); // one letter more
+    EXPECT_EQ(pt::nearest_name("moton", known), "motion");       // one letter less
+    EXPECT_EQ(pt::nearest_name("Radius", known), "radius");      // other case
     EXPECT_EQ(pt::nearest_name("rabius", known), "radius");      // another letter
 }
 

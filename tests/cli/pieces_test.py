@@ -35,13 +35,13 @@ class Pieces(CommandLineTest):
         self.assertEqual((stats["height"], stats["spp"], stats["rejected_samples"]), (33, 2, 4 * 3))
 
     def test_what_is_left_of_an_interruption_is_black(self):
-        submission = 4 * 4 + 6  # in the second piece: a sample has four submissions, and a piece has four samples
+        submission = 4 * 4 + 6  # in the second piece; a piece has four samples of four submissions
         code = self.run_pt("render", COURSEWORK, *SIZE, "--spp", "4", "--progress", "json", "-o", "a.png",
                            "--piece-rows", "11", FAKE_PT_SAMPLE_MS=120,
                            FAKE_PT_SIGNAL=f"{int(signal.SIGINT)}:{submission}")
         self.assertEqual(code, 130)
         shares = [json.loads(line)["fraction"] for line in self.errors.splitlines() if line.startswith("{")]
-        self.assertGreaterEqual(len(shares), 22 // 4)  # a submission takes at least 30 ms, a line 100 ms
+        self.assertGreaterEqual(len(shares), 22 // 4)  # a submission takes at least 30 ms, and lines are 100 ms apart
         self.assertEqual(shares, sorted(shares))
         self.assertIn("stopped by SIGINT after 1 of 4 samples per pixel in 22 of 33 rows; the others are black",
                       self.errors)
@@ -57,7 +57,7 @@ class Steps(CommandLineTest):
             self.assertEqual(json.loads(self.read("s.json"))["spp"], int(count))
             return read_png(self.path("a.png"))
 
-        split = {"FAKE_PT_FAIL": "split:1"}  # the picture depends on the number of calls
+        split = {"FAKE_PT_FAIL": "split:1"}  # the number of calls changes the picture
         self.assertEqual(picture("16", **split), picture("1", **split))
         self.assertNotEqual(picture("17", **split), picture("16", **split))
         self.assertEqual(picture("17"), picture("16"))
@@ -113,6 +113,6 @@ class RealDevice(CommandLineTest):
 
         whole, pieces = stats(), stats("--piece-rows", "8")
         self.assertLess(pieces["device_bytes"], whole["device_bytes"])
-        # A piece has fewer pixels and therefore a larger margin.
+        # A piece has fewer pixels than the picture, so its margin is larger.
         for key in ("rmse", "relative_rmse"):
             self.assertAlmostEqual(pieces[key], whole[key], delta=0.25 * whole[key])

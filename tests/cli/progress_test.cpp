@@ -46,9 +46,9 @@ TEST(Progress, JsonLines) {
 TEST(Progress, TerminalLine) {
     const std::string output = output_of(ProgressStyle::line);
     EXPECT_LE(std::count(output.begin(), output.end(), '\r'), 22); // ten per second
-    EXPECT_EQ(output.find('\n'), std::string::npos);               // one line, overwritten
+    EXPECT_EQ(output.find('\n'), std::string::npos);               // a single line that is overwritten
     EXPECT_NE(output.find(" 50.5 %  ETA 0:00:01  50/100 spp  50.0 Msamples/s\r"), std::string::npos) << output;
-    EXPECT_TRUE(output.ends_with("\r\x1b[K")); // finally empty
+    EXPECT_TRUE(output.ends_with("\r\x1b[K")); // ends with an empty line
 }
 
 TEST(Progress, TerminalLineFitsAnyWidth) {
@@ -139,7 +139,7 @@ TEST(Progress, TheErrorIsShownOnceItIsKnown) {
               " 50.0 %  ETA 0:00:01  50/100 spp  50.0 Msamples/s");
 }
 
-// Two fifths were done before, so one fifth was done in one second.
+// Two fifths were done before, so one second brought one fifth.
 TEST(Progress, SamplesOfAnotherRunTookNoTime) {
     EXPECT_EQ(line_after(milliseconds(1000), 60.0, [](Progress &progress) { progress.begin_at(40); }),
               " 60.0 %  ETA 0:00:02  60/100 spp  20.0 Msamples/s");

@@ -64,7 +64,7 @@ TEST(RenderTask, ToneMapping) {
     EXPECT_EQ(task_of({}, full_scene).scene.display.exposure, -3.0);
     EXPECT_EQ(task_of({}, full_scene).scene.display.curve, cli::ToneCurve::agx);
     EXPECT_EQ(task_of({}, full_scene).scene.display.gamma, 2.2);
-    EXPECT_FALSE(task_of(full_options(), full_scene).scene.display.exposure); // "auto" counts
+    EXPECT_FALSE(task_of(full_options(), full_scene).scene.display.exposure); // "auto" counts as given
     EXPECT_EQ(task_of(full_options(), full_scene).scene.display.curve, cli::ToneCurve::none);
 }
 
@@ -77,7 +77,7 @@ TEST(RenderTask, ATargetErrorRaisesTheDefaultNumberOfSamplesAlone) {
 
 TEST(RenderTask, SamplesEndWithTheLastIndex) {
     RenderOptions options;
-    options.first_sample = 4294967286U; // ten are left
+    options.first_sample = 4294967286U; // ten numbers are left
     EXPECT_EQ(task_of(options, R"({"render": {"spp": 10}})").sample_count, 10U);
     EXPECT_THROW(task_of(options, R"({"render": {"spp": 11}})"), cli::Failure);
     options.stopping.target_error = 0.01;
@@ -106,7 +106,7 @@ TEST(RenderTask, WhatTheLibraryRefusesIsNamedAsItWasGiven) {
     EXPECT_EQ(explained(size_only, {size, length}, full_scene),
               std::pair(ExitCode::usage, std::string("--size: width = 0: must be >= 1\n"
                                                      "s.json:3: render.max_path_length = 2000: must be <= 1024")));
-    // both are defaults
+    // Both numbers are defaults.
     EXPECT_EQ(explained({}, {{"render", none, "width", none, "* rows", "512 * 1", "too many"}}, "{}"),
               std::pair(ExitCode::usage, std::string("--size: width * rows = 512 * 1: too many")));
 }

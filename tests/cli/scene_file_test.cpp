@@ -106,7 +106,7 @@ TEST(SceneFile, ReadsCameraAndSettings) {
     EXPECT_EQ(scene.camera.shutter_open, 0.25);
     EXPECT_EQ(scene.camera.shutter_close, 0.5);
     EXPECT_EQ(scene.render.width, 320U);
-    EXPECT_EQ(scene.render.height, 200U); // 2e2 is an integer
+    EXPECT_EQ(scene.render.height, 200U); // 2e2 is an integer.
     EXPECT_EQ(scene.display.exposure, -1.5);
     EXPECT_EQ(scene.display.curve, cli::ToneCurve::agx);
     EXPECT_EQ(scene.display.gamma, 2.2);
@@ -254,7 +254,7 @@ TEST(SceneFile, DuplicatesAreRefused) {
     EXPECT_EQ(refusal(R"({"film":{"width":1,"width":1}})"), "1: film.width: is given twice");
     EXPECT_EQ(refusal(R"({"materials":{"a":{},"b":{},"a":{}}})"), "1: materials.a: is given twice");
     EXPECT_EQ(refusal(R"({"spheres":[{"radius":1,"radius":2}]})"), "1: spheres[0].radius: is given twice");
-    EXPECT_EQ(refusal(R"({"materials":{"width":{}},"film":{"width":1}})"), ""); // in different places
+    EXPECT_EQ(refusal(R"({"materials":{"width":{}},"film":{"width":1}})"), ""); // keys in different objects
 }
 
 TEST(SceneFile, RefusalsHaveTheLineOfTheValue) {
@@ -288,7 +288,7 @@ TEST(SceneFile, ZerosAreNotDefaults) {
     EXPECT_EQ(camera(R"("vertical_fov":0)"),
               "1: camera.vertical_fov: must be a number from 6e-07 to below 180 degrees, is 0");
     EXPECT_NE(camera(R"("vertical_fov":180)"), "");
-    EXPECT_NE(camera(R"("vertical_fov":5e-7)"), ""); // 8.7e-9 radians, below the library's bound
+    EXPECT_NE(camera(R"("vertical_fov":5e-7)"), ""); // This is 8.7e-9 radians, below the library's bound.
     EXPECT_EQ(camera(R"("vertical_fov":6e-7)"), "");
     EXPECT_EQ(camera(R"("vertical_fov":179.9)"), "");
     EXPECT_EQ(camera(R"("up":[0,0,0])"), "1: camera.up: must not be [0, 0, 0]");
@@ -350,7 +350,7 @@ TEST(SceneFile, AByteOrderMarkOfUtf8DoesNoHarm) {
     EXPECT_TRUE(refusal("\xef\xbb\xbf{,").starts_with("1:2: syntax error")) << refusal("\xef\xbb\xbf{,");
 }
 
-// A reader with quadratic time would take minutes.
+// Reading in quadratic time would take minutes.
 TEST(SceneFile, ManyItemsAreReadInLinearTime) {
     std::string text = "{\"materials\":{";
     constexpr int count = 30'000;

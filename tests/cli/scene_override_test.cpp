@@ -186,11 +186,11 @@ TEST(Animation, SpheresMoveWithinAFrame) {
         return parse_scene(moving, "s.json", pt::overrides_of_frame(scene, frame)).spheres.at(0);
     };
     EXPECT_EQ(list(sphere(9).center), (Numbers{0, 0, 0}));
-    EXPECT_EQ(list(sphere(9).motion), (Numbers{0, 0, 0})); // not the file's
+    EXPECT_EQ(list(sphere(9).motion), (Numbers{0, 0, 0})); // replaces the file's motion
     EXPECT_EQ(list(sphere(11).center), (Numbers{1, 0, 0}));
     EXPECT_EQ(list(sphere(11).motion), (Numbers{1, 0, 0}));
     EXPECT_EQ(list(sphere(12).center), (Numbers{2, 0, 0}));
-    EXPECT_EQ(list(sphere(12).motion), (Numbers{0, 3, 0})); // around the corner
+    EXPECT_EQ(list(sphere(12).motion), (Numbers{0, 3, 0})); // continues in the other array
     EXPECT_EQ(list(sphere(14).motion), (Numbers{0, 0, 0}));
 }
 

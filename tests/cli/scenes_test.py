@@ -7,7 +7,7 @@ import pathlib
 from command_line import PT, SCENES, CommandLineTest
 from scene_file import read_scene
 
-# The materials of these scenes reflect more light than they receive, as in the original coursework.
+# As in the original coursework, these scenes' materials reflect more light than they receive.
 WARNED_OF = ["coursework-motion.json", "coursework.json"]
 FILES = sorted(name for name in os.listdir(SCENES) if name.endswith(".json"))
 

@@ -108,7 +108,6 @@ class Schema(CommandLineTest):
                 spheres = {"center": "a.npy", "radius": "r.npy", "material": "r", key: value}
                 scene = {"materials": {"r": {}}, "spheres": [spheres]}
                 is_valid = self.validator.is_valid(scene)
-                # The stand-in accepts all values.
                 refused = self.refused_by(self.fake, scene, "--size", "4x2")
                 refused = refused or (not is_valid and self.refused_by(PT, scene))
                 self.assertEqual(refused, not is_valid, spheres)
@@ -125,7 +124,7 @@ class Schema(CommandLineTest):
             is_valid = self.validator.is_valid(scene)
             refused = self.refused_by(self.fake, scene, "--size", "4x2")
             kind = "valid" if is_valid else "reader"
-            # Only a device can check the library's rules.
+            # Only a real device checks the library's rules.
             if not refused and not is_valid:
                 refused = self.refused_by(PT, scene)
                 kind = "library"

@@ -1,4 +1,4 @@
-// Tests the judgement and report of cli/selftest. selftest_test.py tests the scenes.
+// Tests the verdict and report of cli/selftest. selftest_test.py tests the scenes.
 #include "cli/selftest/selftest.h"
 
 #include <gtest/gtest.h>
@@ -86,12 +86,13 @@ TEST(SelftestScene, RecedingLampByQuadrature) {
     EXPECT_NEAR(scene.expected, sum / steps, 1e-8);
 }
 
-// Integrates light that is found by a sample of one kind and by some directions. The power heuristic weights both.
+// Integrates light that two methods find: one sample of a lamp, and some directions. The power heuristic gives the
+// weights.
 class TwoWays {
 public:
     explicit TwoWays(int directions) : directions_(directions) {}
 
-    // Adds a part of the integral, with the densities of the sample and of one direction at this point.
+    // Adds a part of the integral, with the densities of the lamp's sample and of one direction at this point.
     void add(double part, double measure, double sample_density, double direction_density) {
         const double a = sample_density;
         const double b = directions_ * direction_density;
@@ -119,8 +120,8 @@ private:
 
 constexpr double pi = std::numbers::pi;
 
-// The sample chooses one of `count` lamps of radiance 1. `polar` is the angle between the lamps' centers and the
-// normal. `sine` is the sine of their angular radius.
+// Each sample chooses one of `count` lamps of radiance 1. `polar` is the angle of each lamp's center to the normal.
+// `sine` is the sine of the angular radius.
 TwoWays light_of_lamps(int count, double polar, double sine, int directions) {
     constexpr int steps = 400;
     const double cap = 1.0 - std::sqrt(1.0 - sine * sine);
@@ -137,14 +138,14 @@ TwoWays light_of_lamps(int count, double polar, double sine, int directions) {
     return light;
 }
 
-// A lamp of power 1 lights a ceiling of albedo 20 at height 6.5 above it. The integral is over the fraction of the
-// lamp's directions.
+// A lamp of power 1 lights a ceiling of albedo 20 at height 6.5 above it. The integration variable is the fraction of
+// the lamp's directions.
 TwoWays light_of_glow() {
     constexpr int steps = 1000000;
     constexpr double height = 6.5;
     TwoWays light(2);
     for (int i = 0; i < steps; ++i) {
-        const double squared_way = steps / (i + 0.5); // from the lamp
+        const double squared_way = steps / (i + 0.5); // squared distance from the lamp
         const double squared_distance = squared_way - 1.0 + height * height;
         const double density = 1.0 / (pi * squared_way * squared_way);
         const double form = height * height / (pi * squared_distance * squared_distance);
@@ -154,14 +155,13 @@ TwoWays light_of_glow() {
     return light;
 }
 
-// Tests the bound of weight_scenes().
 TEST(SelftestScene, AWeightThatIsWrongByTwoPercentMovesTheMeanByTwiceTheBound) {
     const std::vector<SelftestScene> scenes = cli::weight_scenes();
     ASSERT_EQ(scenes.size(), 3U);
     struct Light {
         TwoWays ways;
-        double factor; // the lamps' radiance
-        double other;  // with another weight
+        double factor; // radiance of the lamps
+        double other;  // mean with another weight
     };
     const std::vector<Light> lights{{light_of_lamps(1, 0.0, 0.5, 4), 4.0, 0.0},
                                     {light_of_lamps(5, pi * 50.0 / 180.0, 0.42, 1), 1.0, 0.0},

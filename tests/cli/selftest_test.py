@@ -6,7 +6,7 @@ from command_line import PT, RESULT, SCENES, CommandLineTest
 
 
 class Selftest(CommandLineTest):
-    """All scenes fail with the image of the fake library."""
+    """Every scene fails with the fake library's image."""
 
     def checks(self, **environment):
         self.assertEqual(self.run_pt("selftest", "--json", "s.json", **environment), 1, self.errors)

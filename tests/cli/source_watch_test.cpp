@@ -41,7 +41,7 @@ protected:
 
     SourceWatch watch() const { return {folder.file("scene"), folder.file("shaders")}; }
 
-    // A change is reported after several calls.
+    // Only a later call reports a change.
     static void expect_change(SourceWatch &watch, const std::vector<std::string> &names) {
         const auto end = std::chrono::steady_clock::now() + long_enough;
         while (!watch.changed(long_enough))
@@ -51,7 +51,7 @@ protected:
         EXPECT_FALSE(watch.changed(milliseconds{0}));
     }
 
-    // The third call, at the latest, looks at the files. The next call finds that they no longer change.
+    // The third call, at the latest, looks at the files. The call after it finds that they no longer change.
     static void expect_nothing(SourceWatch &watch) {
         for (int call = 0; call < 6; ++call)
             EXPECT_FALSE(watch.changed(milliseconds{100}));

@@ -14,7 +14,7 @@ class ExitCodes(CommandLineTest):
         kept = ("--checkpoint", "c.ptfilm")
         not_kept = ("--checkpoint", "none/c.ptfilm")  # a missing folder
         table = [
-            # options, exit code, cause of the end
+            # options, exit code, reason for the end
             (("--spp", "20"), 0, "samples"),
             (("--spp", "20", *kept), 0, "samples"),
             (("--spp", "20", *not_kept), 0, "samples"),
@@ -54,7 +54,7 @@ class ExitCodes(CommandLineTest):
                 self.assertEqual("; --resume continues from c.ptfilm" in self.errors, options[0] == "--checkpoint")
 
     def test_a_signal_that_comes_twice_at_once_is_one(self):
-        """timeout(1) signals the process and its group."""
+        """timeout(1) signals both the process and its group."""
         process = self.start("render", COURSEWORK, "-o", "a.png", "--spp", "1000000", "--size", "2x2", "--progress",
                              "json", "--checkpoint", "c.ptfilm", FAKE_PT_SAMPLE_MS=200)
         while json.loads(process.stderr.readline())["samples_per_pixel"] == 0:
@@ -66,8 +66,7 @@ class ExitCodes(CommandLineTest):
         self.assertEqual(self.files(), ["a.png", "c.ptfilm"])
 
     def test_another_signal_later_ends_it_at_once(self):
-        """A sample takes an hour. The program stops itself during the first sample, so that the signals come during
-        this sample."""
+        """A sample takes an hour. The program stops itself during the first one, so both signals come during this sample."""
         process = self.start("render", COURSEWORK, "-o", "a.png", "--spp", "2", "--size", "2x2",
                              FAKE_PT_SAMPLE_MS=3_600_000, FAKE_PT_SIGNAL=f"{int(signal.SIGSTOP)}:1")
         state = os.waitid(os.P_PID, process.pid, os.WSTOPPED | os.WEXITED | os.WNOWAIT)
@@ -147,8 +146,8 @@ KEYS = [name + end for name in ("rmse", "relative_rmse") for end in ("", "_low",
 
 
 class TargetError(CommandLineTest):
-    """The relative error is 0.5 / N, with bounds at half and twice this error. Below 16 samples the error is
-    unknown. The absolute error is twice as large."""
+    """The relative error is 0.5 / N, with bounds of half and twice this error. The absolute error is twice the relative one. Below 16
+    samples the error is unknown."""
 
     def render(self, *options, code=0):
         arguments = ["render", COURSEWORK, "-o", "a.png", "--size", "4x3", "--stats", "s.json"]

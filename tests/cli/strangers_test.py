@@ -1,4 +1,4 @@
-"""Special files must be refused at once, and printed texts must not control the terminal."""
+"""The program must refuse special files at once, and must not print control characters."""
 
 import json
 import os
@@ -14,7 +14,7 @@ SMALL = ("-o", "a.png", "--size", "2x2", "--spp", "1")
 
 
 def sparse(path, start, size):
-    """Writes a file that is too large to be read in time."""
+    """Writes a file that takes too long to read."""
     with open(path, "wb") as file:
         file.write(start)
         file.truncate(size)
@@ -137,7 +137,7 @@ class Compiler(CommandLineTest):
         self.assertNotRegex(self.errors, "[\x07\x1b\u202e]")
 
     def test_a_signal_ends_it_at_once(self):
-        """The shader has 2^60 includes, so reading it never ends."""
+        """The shader has 2^60 includes, so reading never ends."""
         for i in range(60):
             self.write(f"shaders/{i}.glsl", f'#include "{i + 1}.glsl"\n' * 2)
         self.write("shaders/60.glsl", "\n")

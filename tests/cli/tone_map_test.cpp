@@ -48,12 +48,12 @@ TEST(ToneMap, SrgbAnchors) {
     EXPECT_NEAR(cli::encode_srgb(0.001), 0.01292, rounding);
 }
 
-// The standard rounds the break point to 7 decimals, so the gap is the slope times half a unit.
+// The standard rounds the break point to 7 decimals. The gap is the slope times half a unit of the last decimal.
 TEST(ToneMap, SrgbPiecesMeet) {
     constexpr double break_point = 0.0031308;
     const double above = cli::encode_srgb(std::nextafter(break_point, 1.0));
     EXPECT_NEAR(above, cli::encode_srgb(break_point), 12.92 * 0.5e-7);
-    EXPECT_NE(above, cli::encode_srgb(break_point)); // negative control: without the linear piece there is no gap
+    EXPECT_NE(above, cli::encode_srgb(break_point)); // Negative control: without the linear piece both sides agree.
 }
 
 TEST(ToneMap, CurvesNeverFall) {
@@ -63,7 +63,7 @@ TEST(ToneMap, CurvesNeverFall) {
             return apply_curve(curve, {x, x, x})[1];
         })) << cli::tone_curves.name(curve);
     }
-    EXPECT_FALSE(is_nondecreasing([](double x) { return x - 2e-3 * std::sin(1e3 * x); })); // negative control
+    EXPECT_FALSE(is_nondecreasing([](double x) { return x - 2e-3 * std::sin(1e3 * x); })); // Negative control.
 }
 
 TEST(ToneMap, CurvesStayInTheDisplayAndKeepBlack) {
@@ -83,7 +83,7 @@ TEST(ToneMap, NoneClamps) {
 TEST(ToneMap, ReinhardIsOnTheLuminance) {
     expect_color(apply_curve(ToneCurve::reinhard, {1.0, 1.0, 1.0}), {0.5, 0.5, 0.5}, rounding);
     const Color color = apply_curve(ToneCurve::reinhard, {1.0, 0.5, 0.25});
-    EXPECT_NEAR(color[0] / color[1], 2.0, rounding); // 0.5 / 0.333 if applied by channel
+    EXPECT_NEAR(color[0] / color[1], 2.0, rounding); // 0.5 / 0.333 if each channel had its own curve
     EXPECT_NEAR(color[1] / color[2], 2.0, rounding);
 }
 
@@ -96,13 +96,13 @@ TEST(ToneMap, AgxAnchors) {
                  {0.21446743070720334, 0.21453266862054834, 0.21453672826813272}, rounding);
     expect_color(apply_curve(ToneCurve::agx, {1.0, 0.2, 0.05}),
                  {0.6533598827094625, 0.2536195947288043, 0.107880509867948}, rounding);
-    // Sobotka's sigmoid maps middle grey to half the signal. The polynomial has a root mean square error of
-    // sqrt(3.67e-6) = 0.0019.
+    // Sobotka's sigmoid maps middle grey to half the signal. The polynomial approximates it with a root mean square
+    // error of sqrt(3.67e-6) = 0.0019.
     EXPECT_NEAR(std::pow(apply_curve(ToneCurve::agx, {0.18, 0.18, 0.18})[1], 1.0 / 2.2), 0.5, 3 * 0.0019);
 }
 
 TEST(ToneMap, NeutralAnchors) {
-    // The curve subtracts the 4 % of Fresnel reflection, and near black a fraction of it.
+    // The curve subtracts the 4% of Fresnel reflection. Near black it subtracts less.
     expect_color(apply_curve(ToneCurve::neutral, {0.5, 0.3, 0.2}), {0.46, 0.26, 0.16}, rounding);
     expect_color(apply_curve(ToneCurve::neutral, {0.05, 0.05, 0.05}), {0.015625, 0.015625, 0.015625}, rounding);
     expect_color(apply_curve(ToneCurve::neutral, {1.0, 1.0, 1.0}),
@@ -148,14 +148,14 @@ TEST(Exposure, TheAverageOfLogarithmsBecomesMiddleGrey) {
     EXPECT_EQ(automatic_exposure(grey({0x1p-20F * 0.09F, 0x1p-20F * 0.36F})), 20.0) << "moves with the picture";
 }
 
-// A hundredth of the pixels is 2^20 times as bright. These pixels alone set the level to 2^20 / 100^4.
+// A hundredth of the pixels is 2^20 times as bright. The level would be 2^20 / 100^4 from these pixels alone.
 TEST(Exposure, HardlyDependsOnLamps) {
     std::vector<float> radiance = grey({0x1p20F * 0.18F});
     radiance.resize(3 * 100, 0.18F);
     EXPECT_NEAR(automatic_exposure(radiance), -20.0 / 100.0, 0.01);
 }
 
-// Half of the picture is at most 2^-40, and its weight is 128 * 2^-40 / level.
+// Half of the picture is at most 2^-40. The weight of this half is 128 * 2^-40 / level.
 TEST(Exposure, WhatLooksBlackDoesNotCount) {
     EXPECT_EQ(automatic_exposure(grey({0.18F, 0x1p-40F, 0.18F, 0x1p-60F})), 0.0);
 }

@@ -32,7 +32,7 @@ class RealDeviceWidth(CommandLineTest):
             self.skipTest("there is no llvmpipe")
 
     def render(self, name, **environment):
-        """Returns the device's name, which contains llvmpipe's width."""
+        """Returns the device's name, which states llvmpipe's vector width."""
         self.expect(0, "render", COURSEWORK, "-o", name, "--size", "64x32", "--spp", "4", "--max-path-length", "6",
                     "--device", self.device, XDG_CACHE_HOME=self.path("cache"), **environment)
         return read_exr_attributes(self.path(name))["pt.device"][1].decode()
@@ -53,7 +53,7 @@ class RealDeviceWidth(CommandLineTest):
                     "LP_NATIVE_VECTOR_WIDTH, or begin anew")
 
     def test_the_picture_is_the_same(self):
-        for width in 256, 512:  # a cache would keep code for the other width
+        for width in 256, 512:  # A cache would keep code for one width.
             name = self.render(f"{width}.exr", LP_NATIVE_VECTOR_WIDTH=width, MESA_SHADER_CACHE_DISABLE="true")
             self.assertIn(f"{width} bits", name)
         self.assertEqual(read_exr_blocks(self.path("256.exr")), read_exr_blocks(self.path("512.exr")))

@@ -51,7 +51,7 @@ TEST(Warnings, MaterialsThatGiveOffMoreThanTheyReceive) {
             R"(}, "c": {"diffuse": 2}}, "planes": [{"normal": [0, 1, 0], "offset": 1,
                            "material": "a b"}], "spheres": [{"center": [0, 5, 0], "radius": 1, "material": "lamp"}])");
     };
-    EXPECT_EQ(with("0.1"), Texts()); // 0.1 + 0.9 is 1 in float32; c is not used
+    EXPECT_EQ(with("0.1"), Texts()); // In float32 0.1 + 0.9 is 1. The material c is not used.
     EXPECT_EQ(with("[0.9, 0, 0.7]"), Texts());
     EXPECT_EQ(with("0.101"),
               Texts{"s.json: materials[\"a b\"]: diffuse + specular = 1: more light is reflected than received"});

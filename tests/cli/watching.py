@@ -7,7 +7,7 @@ from command_line import PATIENCE, CommandLineTest, default_signals
 
 
 def scene_text(width, emission=1.0):
-    """The camera is inside a ball, so every pixel has exactly its emission."""
+    """The camera is inside a ball, so every pixel has exactly the ball's emission."""
     return json.dumps({"film": {"width": width, "height": 2, "exposure": 0}, "render": {"spp": 1, "max_path_length": 1},
                        "materials": {"light": {"emission": emission}},
                        "spheres": [{"center": [0, 0, 0], "radius": 9, "material": "light"}]})
@@ -19,7 +19,7 @@ class Watching:
         self.seen = []
 
     def line_with(self, text):
-        """Skips other lines."""
+        """Returns the next line with the text."""
         for line in self.process.stdout:
             self.seen.append(line)
             if text in line:

@@ -1,5 +1,5 @@
-"""Builds users' programs with the installed library: consumers_test.py STEP, where `install` must be the first step.
-The installation is moved before use."""
+"""Builds users' programs with the installed library: consumers_test.py STEP. The first step, `install`, moves the installation before its
+use."""
 
 import argparse
 import json
@@ -90,7 +90,7 @@ class Steps:
                     require(f"{place}/" not in text, f"{path} names {place}")
 
     def check_copyrights(self, share, packages):
-        """Each package must name the holders and licenses of its code, and contain the texts."""
+        """Each package must name the holders and licenses of its code, and include the licenses' texts."""
         for package in packages:
             text = (share / "doc" / package / "copyright").read_text()
             holders = re.findall(r"^Files: .*\nCopyright: .*\nLicense: (.*)$", text, re.MULTILINE)
@@ -188,9 +188,9 @@ class Steps:
         return fast, slow
 
     def subproject(self):
-        """Tests add_subdirectory with objects of the library's own build (reuse.py)."""
+        """add_subdirectory() with objects of the library's own build (reuse.py)."""
         folder = self.folder("subproject")
-        # The library optimizes only itself, and only if the outer project chooses no build type.
+        # The library sets optimization only for itself, and only if the outer project chooses no build type.
         for number, (settings, expected) in enumerate((
                 ([], ({"lib"}, {"tests"})),
                 (["-DCMAKE_BUILD_TYPE=Debug"], (set(), {"lib", "tests"})),
@@ -209,7 +209,7 @@ class Steps:
         reuse = ";".join(map(str, (sys.executable, "-B", HERE / "reuse.py", commands, self.options.build, build / "pt")))
         self.configure_subproject(build, f"-DCMAKE_CXX_COMPILER_LAUNCHER={reuse}", *(f"-D{each}" for each in settings),
                                   "-DCMAKE_INTERPROCEDURAL_OPTIMIZATION=ON", "-DCMAKE_CXX_FLAGS=-flto=auto")
-        said = run(self.options.cmake, "--build", build, "-j1")  # another test uses the second core
+        said = run(self.options.cmake, "--build", build, "-j1")  # The other core runs another test.
         require("warning" not in said, said)
         symbols = run("nm", "--defined-only", "--extern-only", "--format=posix", build / "pt" / "lib" / "libpt.a")
         exported = (SOURCE / "tests/abi/exported_symbols.txt").read_text().split()

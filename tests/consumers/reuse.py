@@ -1,5 +1,5 @@
-"""A compiler launcher that takes equal objects from another build. Arguments: a file with the other build's commands
-(`ninja -t compdb`), the other build, this build's folder of pt, and the compiler's command."""
+"""A compiler launcher that takes objects from another build if they are equal. Arguments: a file with the other build's commands (`ninja -t
+compdb`), the other build, this build's folder of pt, and the compiler's command."""
 
 import json
 import pathlib
@@ -13,8 +13,7 @@ words = sys.argv[4:]
 
 
 def plain(text, build, output):
-    """Removes differences between builds: folders, launchers, warnings, and link-time optimisation that -fno-lto
-    turns off."""
+    """Removes what may differ between builds: folders, launchers, warnings, and link-time optimisation that -fno-lto turns off."""
     text = text.replace(output, "OUT").replace(str(build), "BUILD").replace("\\", "").replace('"', "").replace("'", "")
     before, off, after = text.rpartition(" -fno-lto")
     text = re.sub(r" -f(no-fat-lto-objects|lto(=\S+)?)(?= )", "", f"{before} ") + off + after
@@ -22,7 +21,7 @@ def plain(text, build, output):
 
 
 def same_sources(source):
-    """Compares all generated shaders, and the unity file."""
+    """Compares the generated shaders and the unity file."""
     generated = [path.relative_to(own) for path in (own / "lib/shaders").glob("*.h")]
     return generated and all(
         (other / name).exists() and (other / name).read_text().replace(str(other), str(own)) == (own / name).read_text()

@@ -1,4 +1,4 @@
-// Compares stated errors of denoised images with true errors. fake_open_image_denoise.cpp is the filter.
+// Compares stated errors of denoised images with true errors. The filter is fake_open_image_denoise.cpp.
 #include "tests/support/statistics.h"
 
 #include <pt/denoise.h>
@@ -28,7 +28,7 @@ double limit_at(std::size_t index) {
     return 0.6 + 0.4 * static_cast<double>(index / 3 % width / 12 % 2) + 0.1 * static_cast<double>(index % 3);
 }
 
-// Values have an exponential distribution, which is skewed like light. `deviation` is relative to the mean.
+// Values have an exponential distribution, which is skewed as light often is. `deviation` is relative to the mean.
 Pixels noisy(std::uint64_t seed, double deviation) {
     std::mt19937_64 random(seed);
     Pixels pixels(value_count);
@@ -88,7 +88,7 @@ struct Denoising {
         });
     }
 
-    // rmse^2 is 1.28 standard errors above the stated square, and rmse_low^2 is 1.96 below it.
+    // The estimate of the square: rmse^2 lies 1.28 standard errors above it, and rmse_low^2 lies 1.96 below.
     double stated_square() const {
         EXPECT_GT(error.rmse_low, 0.0);
         return (1.96 * std::pow(error.rmse, 2) + 1.28 * std::pow(error.rmse_low, 2)) / (1.96 + 1.28);
@@ -125,9 +125,8 @@ Stated over_seeds(const char *wish, double deviation, int seed_count = 6) {
     return stated;
 }
 
-// A filter that does nothing has no bias. For other filters the limits depend on both halves, so the stated square is
-// too small by at most a quarter. Negative estimates of faults count as 0, so the square is too large by less than a
-// third.
+// A filter that does nothing has no bias. With other filters, the limits depend on both halves, so the stated square is
+// up to a quarter too small. Negative estimates of errors count as 0, so the square is less than a third too large.
 TEST(Denoise, StatesTheSquareOfItsError) {
     for (const char *wish : {"identity", "", "shift", "darken"}) {
         const Stated stated = over_seeds(wish, much_noise, 24);
@@ -137,7 +136,7 @@ TEST(Denoise, StatesTheSquareOfItsError) {
         const double chosen = std::string(wish) == "identity" ? 0.0 : stated.mean_true;
         EXPECT_LT(moments.mean, bound + chosen / 3) << wish;
         EXPECT_GT(moments.mean, -bound - 0.25 * chosen) << wish;
-        EXPECT_LT(bound, 0.15 * stated.mean_true) << wish; // otherwise the comparison proves nothing
+        EXPECT_LT(bound, 0.15 * stated.mean_true) << wish; // or the comparison proves nothing
         for (const double ratio : {stated.mean_ratio, stated.mean_relative_ratio}) {
             EXPECT_GT(ratio, 0.87) << wish; // sqrt(1 - 1/4)
             EXPECT_LT(ratio, 1.3) << wish;
@@ -145,9 +144,9 @@ TEST(Denoise, StatesTheSquareOfItsError) {
     }
 }
 
-// One of 300 values in a half is brighter by 60. The filter cuts it to 4, which removes 0.2 from the mean. In each
-// image, 92,160 / 300^2 = 1 value has such light in both halves. Products of single values would therefore show the
-// loss in only half of the images, and far too large.
+// One of 300 values in a half is brighter by 60. The filter cuts it to 4, which removes 0.2 from the mean. Each image
+// has 92,160 / 300^2 = 1 value with such light in both halves. Products of single values would show the loss in only
+// half of the images, and far too large.
 TEST(Denoise, StatesRareLightThatItsFilterTakesAway) {
     constexpr double probability = 1.0 / 300;
     constexpr double light = 60.0;
@@ -166,7 +165,7 @@ TEST(Denoise, StatesRareLightThatItsFilterTakesAway) {
     }
 }
 
-// With little noise, shifting or darkening does more harm than good.
+// With little noise, the planted faults of the filter exceed the noise that it removes.
 TEST(Denoise, IsNoWorseThanTheRawImage) {
     for (const char *wish : {"identity", "", "shift", "darken"})
         for (const double deviation : {much_noise, 0.2, 0.02})
@@ -186,9 +185,10 @@ struct Level {
     double noise; // relative
 };
 
-// Stripes of two levels. In the first, each half has a mark at every fifth place with probability 1/2. Blurring is
-// wrong where one half has the mark, which limits allow, and where both have it, which limits forbid. It is right
-// elsewhere, so it would gain by relative errors where marks are bright, and by absolute errors where they are dark.
+// The image has stripes of two levels. On stripes of the first level, each half has a mark at every fifth place with
+// probability 1/2. Blurring is wrong at marks. If one half has the mark, the limits allow blurring, and if both have
+// it, they forbid blurring. Blurring is right elsewhere, so it would reduce relative errors where marks are bright, and
+// absolute errors where marks are dark.
 TEST(Denoise, KeepsMarksThatHalvesHaveByChance) {
     constexpr double mark = 0.8;
     const Level cases[][2] = {{{1, 0.05}, {1, 0.05}}, {{100, 0.005}, {1, 0.5}}, {{0.5, 0.005}, {100, 0.05}}};
@@ -210,7 +210,7 @@ TEST(Denoise, KeepsMarksThatHalvesHaveByChance) {
             }
         Denoising denoising(halves[0], halves[1]);
         ASSERT_EQ(denoising.run(), PT_OK);
-        // Denoised over raw, with the squares' weights.
+        // Denoised over raw error, both with the weights of the squares.
         const auto ratio = [&](const auto &weight) {
             const auto square = [&](const auto &value) {
                 return denoising.mean([&](std::size_t i) {
@@ -228,13 +228,14 @@ TEST(Denoise, KeepsMarksThatHalvesHaveByChance) {
     }
 }
 
-// The image has a ramp up in the upper half and a ramp down in the lower half, so a filter that shifts it by a pixel
-// keeps the mean. The noise of both halves is opposite, so their mean is the ramp. The remaining shift is therefore the
-// share that the denoiser chose: nearly 1 at the left, where noise is large, and small at the right. The share must
-// have no steps. If it changes linearly over a tile of 8 pixels, it changes by an eighth from pixel to pixel.
+// The image is a ramp, upwards in the upper half and downwards in the lower half, so a filter that shifts it by a pixel
+// keeps the mean. Both halves of the samples have opposite noise, so their mean is the ramp. The denoised image then
+// shows which fraction of the filter was chosen: nearly 1 at the left, where noise is large, and little at the right.
+// If this fraction changes linearly over a tile of 8 pixels, it changes by an eighth from pixel to pixel, without
+// steps.
 TEST(Denoise, HasNoSeams) {
     constexpr float slope = 0.02F;
-    constexpr std::size_t noisy_width = 100; // ends within a tile
+    constexpr std::size_t noisy_width = 100; // ends inside a tile
     const auto ramp_at = [](std::size_t x, std::size_t y) {
         return 1.0F + slope * static_cast<float>(y < height / 2 ? x : width - 1 - x);
     };
@@ -258,8 +259,8 @@ TEST(Denoise, HasNoSeams) {
     }
 }
 
-// Noise increases from 0 at the top to the bottom. Two standard errors of a half are 2 sqrt(2) s. Where neighbors have
-// a larger s, s is raised up to 16 times.
+// Noise increases downwards from 0. Two standard errors of a half are 2 sqrt(2) s. If a neighbor has a larger s, s is
+// raised by up to a factor of 16.
 TEST(Denoise, MovesNoValueBeyondWhatHalvesSupport) {
     Pixels halves[2] = {noisy(1, 1.0), noisy(2, 1.0)};
     for (std::size_t i = 0; i < value_count; ++i) {
@@ -300,7 +301,7 @@ TEST(Denoise, MovesNoValueBeyondWhatHalvesSupport) {
 TEST(Denoise, KeepsTheMeanWithinItsNoise) {
     for (const char *wish : {"darken", "cut"}) {
         Denoising denoising(3, 0.2);
-        for (std::size_t i = 0; i < value_count; i += 300) // alternating halves
+        for (std::size_t i = 0; i < value_count; i += 300) // in alternating halves
             (i % 600 == 0 ? denoising.first : denoising.second)[i] += 60.0F;
         ASSERT_EQ(denoising.run(wish), PT_OK);
         double square = 0.0;
@@ -314,8 +315,8 @@ TEST(Denoise, KeepsTheMeanWithinItsNoise) {
     }
 }
 
-// A single value that differs between the halves may be a lamp or noise. No other value of its tile and the neighboring
-// tiles differs.
+// A single value that differs between the halves may be a lamp or noise. All other values of its tile and of the
+// neighboring tiles agree.
 TEST(Denoise, IsNotPersuadedByOnePixel) {
     Pixels halves[2] = {Pixels(value_count, 1.0F), Pixels(value_count, 1.0F)};
     for (std::size_t y = 4; y < height; y += 40)
@@ -327,8 +328,8 @@ TEST(Denoise, IsNotPersuadedByOnePixel) {
         ASSERT_EQ(denoising.denoised[i], 0.5F * (halves[0][i] + halves[1][i])) << i;
 }
 
-// The filter spreads a lamp by two pixels. In these pixels, relative errors would be a million times the errors of the
-// raw image. Relative to the filtered values, the errors would seem small.
+// The filter spreads a lamp by two pixels. There, errors relative to the raw image would be a million times the raw
+// image's. Errors relative to the filtered image would seem small.
 TEST(Denoise, DoesNotSpreadALamp) {
     constexpr std::size_t first = 64;
     constexpr std::size_t end = 68;
@@ -345,9 +346,9 @@ TEST(Denoise, DoesNotSpreadALamp) {
     EXPECT_LT(denoising.error.relative_rmse, 0.02);
 }
 
-// The image is a checkerboard of mean 1. One pixel of each tile differs between the halves, always by the same amount.
-// The filter blurs the checkerboard, so its share is small. Where one half of such a pixel is dark, a bright neighbor
-// may reach into the pixel, and the square counts ln(1 / 0.1) times.
+// The image is a checkerboard of mean 1. In one pixel of each tile the halves differ, always by the same amount. The
+// filter blurs the checkerboard, so little of it is used. If one half of such a pixel is dark, a bright neighbor may
+// extend into the pixel, so the square counts ln(1 / 0.1) times.
 TEST(Denoise, KnowsLittleOfEdgesThatOneHalfDidNotMeet) {
     const auto relative_square = [](float lesser) {
         Pixels halves[2] = {Pixels(value_count), Pixels(value_count)};
@@ -441,7 +442,7 @@ TEST(Denoise, RunsOnTheCpuUnlessTold) {
     EXPECT_EQ(denoising.run("gpu"), PT_OK);
 }
 
-// The system finds the library, for example by LD_LIBRARY_PATH.
+// The system's search finds the library, for example by LD_LIBRARY_PATH.
 TEST(Denoise, RunsTheLibraryItself) {
     Denoising denoising(0, much_noise);
     denoising.info.library = nullptr;

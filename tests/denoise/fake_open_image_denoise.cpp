@@ -1,6 +1,10 @@
-// Replaces Open Image Denoise by a mean over 5 x 5 pixels with planted faults. Values of FAKE_OIDN: `identity` filters
-// nothing, `shift` moves the image by a pixel, `darken` removes a twentieth, `cut` removes all light above 4, the
-// number of an error causes this error, and `gpu` offers no CPU.
+// Replaces Open Image Denoise by a mean over 5 x 5 pixels with planted faults. Values of FAKE_OIDN:
+// identity  filters nothing
+// shift     moves the image by a pixel
+// darken    removes a twentieth
+// cut       removes all light above 4
+// (number)  causes the error of this number
+// gpu       offers no CPU
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>

@@ -41,7 +41,7 @@ class Files(unittest.TestCase):
         self.run_line(f"pt render {SCENE} --size 16x8 --spp 1024 -o one.exr -q")
         self.run_line("pt compare sum.exr one.exr --max-mse 0")
         os.remove(os.path.join(self.folder, "part-64.ptfilm"))
-        with self.assertRaises(AssertionError):  # samples are missing
+        with self.assertRaises(AssertionError):  # Samples are missing.
             self.run_line(command("pt merge"))
 
     def test_xargs(self):

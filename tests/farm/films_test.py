@@ -1,4 +1,4 @@
-"""Tests that pt.farm gives the bytes of a Context of this process, with any faults."""
+"""pt.farm must give the bytes of a Context of this process, even if workers fail."""
 
 import dataclasses
 import os
@@ -29,7 +29,7 @@ from pt.farm._part import Part
 from pt.farm._sum import Sum, write_film
 from pictures import CAMERA, GLOSSY, SCENE
 
-SETTINGS = pt.RenderSettings(136, 100)  # edge tiles are smaller
+SETTINGS = pt.RenderSettings(136, 100)  # smaller tiles at the edges
 JOB = farm.Job(SCENE, CAMERA, SETTINGS)
 SAMPLES, ERROR = 256, 0.006
 QUICK = farm.Options(part_seconds=0.1, patience=0.5)
@@ -53,15 +53,14 @@ def waiting(path):
 
 
 class Unreadable:
-    """An object that the coordinator cannot unpickle."""
+    """An object that fails to unpickle."""
 
     def __reduce__(self):
         return int, ("no number",)
 
 
 def faulty(name, part, codecs):
-    """Every second one of a worker's first films is faulty. Each worker begins at another place in FAULTS, so few
-    parts show all faults."""
+    """Damages every second one of a worker's first films. Workers begin at different places in FAULTS, so a few parts show all faults."""
     worker = distributed.get_worker()
     worker.films = getattr(worker, "films", 0) + 1
     time.sleep(0.03)
@@ -153,7 +152,7 @@ class Farm(unittest.TestCase):
             self.cluster.workers[name].process.pid
 
     def harm(self, workers, stopped=None, killed=None):
-        """Harms some workers when all wait with their parts. A stopped worker goes on when others have its parts."""
+        """Harms some workers while all wait with their parts. A stopped worker goes on when other workers have its parts."""
         go = os.path.join(self.enterContext(tempfile.TemporaryDirectory()), "go")
         calls, held = [], []
 
@@ -167,7 +166,7 @@ class Farm(unittest.TestCase):
                     if killed is not None:
                         address = self.cluster.workers[killed].worker_address
                         os.kill(self.process_of(killed), signal.SIGKILL)
-                        while address in self.cluster.scheduler.workers:  # so that its parts count as lost, not as late
+                        while address in self.cluster.scheduler.workers:  # Its parts must count as lost, not as late.
                             time.sleep(0.01)
                         time.sleep(LOOK_SECONDS)
                     open(go, "w").close()
@@ -222,7 +221,7 @@ class Farm(unittest.TestCase):
 
     def test_target_error(self):
         one = whole(4096, ERROR)
-        self.assertGreater(len(one.tiles), 1)  # otherwise nothing is compared
+        self.assertGreater(len(one.tiles), 1)  # or nothing is compared
         options = dataclasses.replace(QUICK, patience=60.0)
         found = self.farm(4096, target_error=ERROR, task=render_part, options=options)
         self.assertEqual(found.progress.ended_by, "error")

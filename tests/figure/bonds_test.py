@@ -22,8 +22,7 @@ PAIR = Particles(np.array([[-1.0, 0, 0], [1, 0, 0]]), elements=np.uint8([6, 6]))
 
 
 def fullerene():
-    """Returns C60, a truncated icosahedron with edges of 1.43 angstroms. The points are the even permutations of
-    three triples, with all signs."""
+    """C60, a truncated icosahedron with edges of 1.43 angstroms. The points are the even permutations of three triples, with all signs."""
     golden = (1 + 5**0.5) / 2
     triples = ((0, 1, 3 * golden), (1, 2 + golden, 2 * golden), (2, 1 + 2 * golden, golden))
     points = {tuple(np.roll(np.multiply(triple, signs), turn).round(9) + 0.0) for triple in triples
@@ -51,15 +50,15 @@ class Known(unittest.TestCase):
         np.testing.assert_array_equal(np.bincount(found_in(fullerene()).atoms), np.full(60, 3))
 
     def test_the_limit_is_the_sum_of_the_radii_and_the_tolerance(self):
-        """The radii are 0.76 for C and 0.31 for H (Cordero 2008). C-C bonds therefore end at 1.97 = 1.410 * 1.397,
-        and C-H bonds at 1.52 = 1.402 * 1.084."""
+        """The radii are 0.76 for C and 0.31 for H (Cordero 2008). C-C bonds therefore end at 1.97 = 1.410 * 1.397 angstroms, and C-H bonds
+        at 1.52 = 1.402 * 1.084."""
         for factor, expected in ((1.40, 12), (1.405, 6), (1.415, 0)):
             scaled = Particles(BENZENE.positions * factor, elements=BENZENE.elements)
             self.assertEqual(count(scaled), expected, factor)
-        for distance, expected in ((0.39, 0), (0.41, 1)):  # nearer atoms are alternative positions of one atom
+        for distance, expected in ((0.39, 0), (0.41, 1)):  # Closer atoms are alternative positions of one atom.
             self.assertEqual(count(Particles(PAIR.positions * distance / 2, elements=PAIR.elements)), expected)
         with unittest.mock.patch.object(_bonds, "TOLERANCE", 0.0):
-            self.assertEqual(count(BENZENE), 6)  # C-H needs 1.07
+            self.assertEqual(count(BENZENE), 6)
         with unittest.mock.patch.object(_bonds, "TOLERANCE", 1.1):
             self.assertGreater(count(BENZENE), 12)
 
@@ -83,7 +82,7 @@ class Known(unittest.TestCase):
 
 
 def residues(*atoms, **more):
-    """Rows of `atoms` have residue, its number, name, atomic number, and place along x."""
+    """Each of `atoms` is residue, residue number, name, atomic number, and place along x."""
     names, numbers, words, elements, places = zip(*atoms)
     positions = np.array([[place, 0, 0] for place in places], float)
     columns = {"resname": np.array(names), "resid": np.array(numbers), "name": np.array(words)}
@@ -129,7 +128,7 @@ class Residues(unittest.TestCase):
 
 class BruteForce(unittest.TestCase):
     def test_all_pairs_in_an_oblique_cell(self):
-        """Compares with all images, for cells thinner than the cutoff, particles far outside, and one edge that is
+        """Compares with the distances to all periodic images. Cells are thinner than the cutoff, particles lie far outside, and one edge is
         not periodic."""
         random = np.random.default_rng(7)
         for vectors, periodic, cutoff in (([[4, 0, 0], [1, 5, 0], [-1, 0.5, 6]], True, 1.3),
@@ -184,7 +183,7 @@ class Looks(unittest.TestCase):
             np.testing.assert_allclose((*drawn.radii, drawn.rods[0].radius), (ball, ball, stick), rtol=1e-6)
             np.testing.assert_allclose(drawn.ends(drawn.rods[0]), np.zeros((2, 3)), atol=1e-12)
         self.assertFalse(prepare(near, Options(bonds=False)).rods)
-        far = prepare(Particles(near.positions * 1e-12), Options(bonds=2e-12, radius=1e-13))  # in other units
+        far = prepare(Particles(near.positions * 1e-12), Options(bonds=2e-12, radius=1e-13))  # other units
         np.testing.assert_allclose(far.ends(far.rods[0]), np.zeros((2, 3)), atol=1e-9)
         np.testing.assert_allclose(far.rods[0].radius / far.scale, 0.07 * 1.4e-12)
 
@@ -230,7 +229,7 @@ class Looks(unittest.TestCase):
         self.assertGreater(through.camera.position[1] / without.camera.position[1], 1.3)
 
     def test_vectors(self):
-        """The longest vector gets a length of 4 median radii. A given scale multiplies all vectors instead."""
+        """The longest vector is 4 median radii long. A given scale applies to all vectors instead."""
         vectors = np.array([[0.0, 0, 3], [0, 0, 0], [4, 0, 3]])
         particles = Particles(10 * np.eye(3), dict(zip(("vx", "vy", "vz"), vectors.T)))
         for given in ("v", "vx,vy,vz", vectors):
@@ -266,8 +265,7 @@ class Looks(unittest.TestCase):
         self.assertEqual(prepare(named, Options(opacity="0.5", where="share > 0.5")).opacities.tolist(), [0.5])
 
     def test_shares_of_hits(self):
-        """Rays are spread evenly, so fractions vary by less than a tenth of p (1 - p) / 400, the variance of random
-        hits."""
+        """Rays are spread evenly. The fractions vary by less than a tenth of p (1 - p) / 400, the variance of random hits."""
         image = pt.figure(np.zeros((1, 3)), radius=1.0, opacity=0.75, samples=400, size=(32, 32), view="front")
         share = image._shares.shapes[8:24, 8:24]
         self.assertAlmostEqual(share.mean(), 0.75, delta=5 * np.sqrt(0.25 * 0.75 / (400 * 256)))
@@ -313,7 +311,7 @@ class Trails(unittest.TestCase):
                 for begin, end, atom in zip(drawn.begins(rods), drawn.ends(rods), rods.atoms)]
 
     def test_places_in_earlier_frames(self):
-        """Particle 7 goes straight on, 3 goes far and then through a wall, 5 is new, and 9 stands still."""
+        """Particle 7 moves straight on, 3 moves far and then through a wall, 5 is new, and 9 stands still."""
         def series(periodic):
             return [self.frame([[1, 1, 1], [9, 5, 1], [5, 5, 5]], (7, 3, 9), periodic),
                     self.frame([[9.5, 5, 9], [5, 5, 5], [2, 1, 1]], (3, 9, 7), periodic),

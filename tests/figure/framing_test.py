@@ -146,7 +146,7 @@ class Blank(unittest.TestCase):
                 pixels = pixels_per_length(layout.camera, 300, layout.distance) * staged.drawn.scale
                 note = re.fullmatch(r"narrower than a pixel: 93 of 100 balls. --radius (\S+) \(radius=\1\) "
                                     r"makes balls 8 pixels wide", staged.notes[0])
-                self.assertLess(abs(2 * float(note[1]) * pixels / 8 - 1), 0.05)  # rounded in the note
+                self.assertLess(abs(2 * float(note[1]) * pixels / 8 - 1), 0.05)  # The note rounds the number.
         pixels = pixels_per_length(self.staged(0.01).layout.camera, 300, self.staged(0.01).layout.distance)
         for width, told in ((0.95, 1), (1.05, 0)):
             self.assertEqual([note[23:33] for note in self.staged(0.5 * width / pixels).notes], ["100 of 100"] * told)
@@ -195,7 +195,7 @@ class Radii(unittest.TestCase):
                 np.testing.assert_allclose(staged[1].drawn.radii, share * radius, rtol=1e-6)
 
     def test_few_atoms_far_apart_cover_a_hundredth_of_the_picture(self):
-        positions = np.array([[0.0, 0, 0], [4, 0, 0], [100, 0, 0], [104, 0, 0]])  # balls of radius 2 would touch
+        positions = np.array([[0.0, 0, 0], [4, 0, 0], [100, 0, 0], [104, 0, 0]])  # Balls of radius 2 would touch.
         radii = prepare(Particles(positions, elements=np.full(4, 18, np.uint8)), Options()).radii
         span = 2 * usual_reach(reaches_of(positions, np.zeros(1)))
         self.assertAlmostEqual(4 * np.pi * float(radii.max())**2 / span**2, 0.01)
@@ -206,6 +206,6 @@ class Radii(unittest.TestCase):
     def test_one_far_away_is_not_the_fourth_neighbour_of_all_others(self):
         for count in (5, 8, 11):
             cloud = CUBE[:count].copy()
-            cloud[1] = cloud[0] + 0.01  # The fourth neighbor decides, as in random points.
+            cloud[1] = cloud[0] + 0.01  # The fourth neighbor decides, because the nearest may be close by chance.
             cloud[-1] = 1000
             self.assertLess(self.automatic(cloud)[0], 2)

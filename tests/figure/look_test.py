@@ -71,7 +71,7 @@ class Numbers(unittest.TestCase):
         self.assertEqual(colored("v")[1].high, VALUES.max())
         rgb, legend, _ = colored(np.full(COUNT, 3.0))
         self.assertEqual((legend.low, legend.high), (3.0, 3.0))
-        np.testing.assert_array_equal(rgb[0], legend.colormap(128, bytes=True)[:3])  # of the middle
+        np.testing.assert_array_equal(rgb[0], legend.colormap(128, bytes=True)[:3])  # color of the middle
         self.assertLess(colored(skewed, scale="symmetric")[1].high, 6)
 
     def test_magnitudes(self):
@@ -161,7 +161,7 @@ class Radii(unittest.TestCase):
                                  ({"O": 3, "H": 2, "?": 1}, (3, 2, 1)), ("O=3,H=2,?=1", (3, 2, 1))):
             with self.subTest(radius=radius):
                 np.testing.assert_allclose(radii_of(water, radius, []), expected, rtol=1e-6)
-        apart = Particles(1e4 * np.eye(3), elements=labels)  # not in angstroms
+        apart = Particles(1e4 * np.eye(3), elements=labels)  # The distances are not in angstroms.
         self.assertAlmostEqual(radii_of(apart, None, [])[0], 1e4 / 2**0.5, places=6)
 
     def test_what_is_refused(self):
@@ -184,8 +184,8 @@ class Radii(unittest.TestCase):
 
 class Background(unittest.TestCase):
     def test_light_before_a_background(self):
-        """The stage's radiance is 0.5. The four pixels are half covered by a ball of 0.8, in shadow, empty, and
-        fully covered."""
+        """The stage's radiance is 0.5. One pixel is half covered by a ball of 0.8, one is in shadow, one is empty, and one is fully
+        covered."""
         stage, particles = 0.5, np.array([[0.5, 0, 0, 1]])
         radiance = np.float32([[0.5 * 0.75 + 0.5 * 0.5, 0.25, 0.5, 0.75]])[:, :, None].repeat(3, axis=2)
         shares = Shares(particles, np.zeros((1, 4)))

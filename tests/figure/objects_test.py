@@ -1,5 +1,4 @@
-"""Tests objects and files of other packages. If a package is not installed, a stand-in has the attributes that are
-read."""
+"""Tests objects and files of other packages. Packages that are not installed are replaced by objects with the attributes that pt reads."""
 
 import io
 import pathlib
@@ -14,7 +13,7 @@ import numpy as np
 from pt.figures import load
 from pt.figures._errors import DataError
 
-PLACES = np.array([[2.0, 1, 2], [3, 4, 5], [6, 7, 6]])  # within the cell
+PLACES = np.array([[2.0, 1, 2], [3, 4, 5], [6, 7, 6]])
 EDGES = np.array([[9.0, 0, 0], [1, 8, 0], [2, 3, 7]])
 
 
@@ -30,7 +29,7 @@ def installed(name):
         return None
 
 
-installed("gemmi")  # gemmi cannot be imported twice
+installed("gemmi")  # gemmi fails if it is imported twice
 
 
 def ase_atoms(places):
@@ -42,7 +41,7 @@ def ase_atoms(places):
 
 
 class Steps(list):
-    """Reading a frame moves the atoms."""
+    """A trajectory that moves the atoms when a frame is read."""
 
     frame = 0
 
@@ -68,11 +67,11 @@ def universe():
 
 
 class Property(np.ndarray):
-    """An array that has OVITO's particle types."""
+    """An array with OVITO's particle types."""
 
 
 def ovito_data(name):
-    """Type 1 has the name, and type 2 has no name."""
+    """Type 1 has the given name. Type 2 has no name."""
     cell = np.column_stack([EDGES.T, (1, 2, 3)])
     if installed("ovito"):
         from ovito.data import DataCollection
@@ -94,7 +93,7 @@ class Objects(unittest.TestCase):
     def check(self, found, places=PLACES, elements=(8, 1, 1)):
         np.testing.assert_allclose(found.positions, places)
         self.assertEqual(None if found.elements is None else tuple(found.elements), elements)
-        np.testing.assert_allclose(found.cell.vectors, EDGES, atol=1e-5)  # some formats have angles in float32
+        np.testing.assert_allclose(found.cell.vectors, EDGES, atol=1e-5)  # float32 angles in some formats
         return found
 
     def test_ase(self):
@@ -109,7 +108,7 @@ class Objects(unittest.TestCase):
         for data in universe(), universe().atoms:
             if not hasattr(data, "universe"):
                 continue
-            found = self.check(load(data))  # its current frame
+            found = self.check(load(data))  # takes the current frame
             self.assertEqual(found.columns["name"].tolist(), ["OW", "HW1", "HW2"])
             self.check(load(data, frame=1), PLACES + 1)
             np.testing.assert_allclose(found.positions, PLACES)
@@ -140,7 +139,7 @@ class Objects(unittest.TestCase):
             self.assertEqual("from 0 to 255: the largest is 255" in " ".join(found.notes), bool(more))
 
     def test_columns_of_one_array_are_read_in_place(self):
-        """Columns in other orders are copied."""
+        """Columns in another order are copied."""
         array = np.repeat(PLACES, 2, axis=0)
         self.assertTrue(np.shares_memory(load(dict(zip("xyz", array.T))).positions, array))
         np.testing.assert_array_equal(load(dict(zip("zyx", array.T))).positions, array[:, ::-1])
@@ -164,7 +163,7 @@ class Files(unittest.TestCase):
         for key, values in zip(records.dtype.names, [*PLACES.T, packed]):
             records[key] = values
         text = "".join(f"{x} {y} {z} {color} 0 0 0\n" for (x, y, z), color in zip(PLACES, packed))
-        for kind in "FU":  # the bytes of a color are a float or an integer
+        for kind in "FU":  # colors are floats or integers
             found = self.read("a.pcd", head.format(kind, 3, "binary").encode() + records.tobytes())
             np.testing.assert_array_equal(found.positions, PLACES)
             np.testing.assert_array_equal(found.colors[1], (0x40, 0x50, 0x60))
@@ -202,7 +201,7 @@ class Files(unittest.TestCase):
         for name in ("a.pdb", "a.cif", "POSCAR", "a.gro", *(["a.data"] if installed("ase").__version__ >= "3.23" else [])):
             write(self.folder / name, ase_atoms(PLACES), **({"format": "lammps-data"} if name == "a.data" else {}))
             found = load(self.folder / name)
-            apart = np.linalg.norm(found.positions - found.positions[:1], axis=1)  # some formats move or turn the cell
+            apart = np.linalg.norm(found.positions - found.positions[:1], axis=1)  # Some formats move or turn the cell.
             np.testing.assert_allclose(np.sort(apart), np.linalg.norm(PLACES - PLACES[0], axis=1), atol=2e-3)
             self.assertIsNotNone(found.cell)
 
@@ -245,7 +244,7 @@ class Files(unittest.TestCase):
                 self.read("a.sdf", b"data", chemfiles=None)
 
     def test_standard_input(self):
-        """Only the package's own readers read standard input, also compressed."""
+        """Only the package's own readers accept standard input, which may be compressed."""
         program = "import sys\nfrom pt.figures import load\nprint(load('-', frame=0).positions.tolist())"
         buffer = io.BytesIO()
         np.save(buffer, PLACES)

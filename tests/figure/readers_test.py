@@ -1,4 +1,5 @@
-"""Files of independent writers and of users must have the expected content, or be refused by name, line and rule. All files cloud.* have the same particles."""
+"""Files from other programs and users must give the expected content, or be refused by name, line and rule. All files cloud.* have the same
+particles."""
 
 import bz2
 import gzip
@@ -24,8 +25,8 @@ PLY = "ply\nformat {}\nelement vertex 2\nproperty float x\nproperty float y\npro
 HEAD = "ITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS "
 ATOMS = "ITEM: ATOMS id xs ys zs\n1 0.5 0.25 0.125\n"
 
-DAMAGES = 200  # per file
-DAMAGED = {  # True if a cut row is noticed
+DAMAGES = 200  # damages per file
+DAMAGED = {  # whether a cut row is noticed
     "cloud.csv": False, "cloud.csv.gz": True, "cloud.tsv": False, "cloud.xyz": True, "cloud.extxyz": True, "rows.npy": True,
     "records.npy": True, "stored.npz": True, "deflated.npz": True, "little.ply": True, "lists.ply": True,
     "text.ply": True, "text_lists.ply": True, "melt_plain.dump": True, "tilted.dump": True}
@@ -50,7 +51,7 @@ class Stored(unittest.TestCase):
     def test_files_of_all_writers_hold_the_same(self):
         expected = load(DATA / "cloud.csv")
         self.assertEqual(len(expected), 24)
-        # Tolerances are half a unit of the last digit, for positions up to 5 and charges up to 1.
+        # Tolerances are half a unit of the last digit. Positions are up to 5, and charges up to 1.
         for name, place, charge in (("cloud.csv.gz", 0, 0), ("cloud.tsv", 0, 0), ("cloud.extxyz", 0.5e-8, 0.5e-8),
                                     ("rows.npy", 0, 0), ("columns.npy", 0, 0), ("big.npy", 2**-22, 2**-24),
                                     ("records.npy", 0, 2**-25), ("stored.npz", 0, 0), ("deflated.npz", 0, 2**-25),
@@ -72,7 +73,7 @@ class Stored(unittest.TestCase):
         np.testing.assert_array_equal(first.cell.periodic, [True, False, True])
 
     def test_fractions_of_a_cell(self):
-        """Fractions have 7 digits. Edges are at most 8 long, and a coordinate is the sum of three products."""
+        """Fractions have 7 digits. Edges are at most 8 long, and each coordinate is the sum of three products."""
         for name in "melt", "tilted":
             scaled, plain = load(DATA / f"{name}.dump"), load(DATA / f"{name}_plain.dump")
             np.testing.assert_allclose(scaled.positions, plain.positions, 0, 3 * 8 * 0.5e-7)
@@ -105,16 +106,16 @@ class Cells(InAFolder):
         fractions = np.random.default_rng(1).uniform((0.01, -2, 0.01), (0.99, 3, 0.99), (50, 3))
         inside = fractions @ edges + (1, -2, 10)
         turns = np.random.default_rng(2).integers(-3, 4, (50, 3))
-        turns[:, 1] = 0  # the cell is not periodic along this edge, so particles stay outside
+        turns[:, 1] = 0  # The cell is not periodic along this edge, so particles remain outside.
         outside = inside + turns @ edges
         data = {"positions": outside, "v": np.arange(50)}
         found = load(data)
         found.cell = self.read("a.dump", f"{HEAD}xy xz yz pp ff pp\n1 5 1\n-4 2 1\n10 18 -2\n{ATOMS}").cell
         wrapped = found.wrapped().select(np.arange(50) % 2 == 1)
-        np.testing.assert_allclose(wrapped.positions, inside[1::2], 0, 30 * 2**-50)  # some ulps
+        np.testing.assert_allclose(wrapped.positions, inside[1::2], 0, 30 * 2**-50)
         np.testing.assert_array_equal(wrapped.column("y"), wrapped.positions[:, 1])
         np.testing.assert_array_equal(wrapped.column("v"), np.arange(1, 50, 2))
-        np.testing.assert_array_equal(outside, data["positions"])  # the user's array must not change
+        np.testing.assert_array_equal(outside, data["positions"])  # The user's array must stay unchanged.
 
 
 def many_frames(count):
@@ -175,7 +176,7 @@ class Rows(InAFolder):
         _rows.FEW_BYTES = 1 << 16
 
     def test_blocks_begin_and_end_anywhere(self):
-        rows = [(i, -0.5, i % 1000 + 0.25, i if i < 58000 else i + 0.5) for i in range(60000)]  # whole numbers first
+        rows = [(i, -0.5, i % 1000 + 0.25, i if i < 58000 else i + 0.5) for i in range(60000)]  # whole numbers come first
         for name, head, separator in (("a.csv", "x,y,z,v\n", ","), ("a.xyz", "60000\nProperties=pos:R:3:v:R:1\n", " "),
                                       ("a.dump", "ITEM: NUMBER OF ATOMS\n60000\nITEM: ATOMS x y z v\n", " ")):
             text = (head + "".join(f"{i}{separator}{' ' * (i % 67)}{y}{separator}{z}{separator}{v}\n" for i, y, z, v in rows)).encode()
@@ -186,7 +187,7 @@ class Rows(InAFolder):
 
 
 class Users(unittest.TestCase):
-    """Files that were once misread or refused must be read."""
+    """Files that were once misread or refused."""
 
     def test_what_they_hold(self):
         for name, count, expected in (
@@ -219,7 +220,7 @@ class Users(unittest.TestCase):
                     elif value is None:
                         self.assertIsNone(getattr(found, key))
                     else:
-                        tolerance = 2**-24 if key == "colors" else 0  # colors are float32
+                        tolerance = 2**-24 if key == "colors" else 0  # Colors are float32.
                         np.testing.assert_allclose(getattr(found, key)[:len(value)], value, 0, tolerance)
 
     def test_what_is_said_of_them(self):
@@ -304,7 +305,7 @@ class Messages(InAFolder):
 
 
 class Damaged(InAFolder):
-    """Files that are cut short or have a wrong byte must be read, or be refused with a message that names the file."""
+    """A file that is cut short or has a wrong byte must be read, or be refused with a message that names the file."""
 
     def particles(self, name, data):
         try:
@@ -325,8 +326,8 @@ class Damaged(InAFolder):
                     if found is None:
                         refused += 1
                         continue
-                    # Either all rows are read, or the rows before the cut. A number that may be cut is reported.
-                    is_first = name == "cloud.extxyz" and size < 3 * len(data) // 4  # of two frames
+                    # Either all rows are read, or the rows before the cut. If a number may be cut, a note says so.
+                    is_first = name == "cloud.extxyz" and size < 3 * len(data) // 4  # cut within the first of two frames
                     whole_frame = load(DATA / name, frame=0) if is_first else whole
                     kept = len(found) if found.positions[-1:].tolist() == whole_frame.positions[len(found) - 1:].tolist() \
                         or not any("may be cut" in note for note in found.notes) else len(found) - 1
@@ -350,8 +351,8 @@ class Damaged(InAFolder):
                     if found.positions.shape == whole.positions.shape:
                         rows = (found.positions != whole.positions).any(1).sum()
                         changed += rows > 0
-                        # Behind all headers, only one row may differ. There are two exceptions: a huge number makes all
-                        # others negligible, and compression spreads the fault.
+                        # Damage after all headers may change only one row. There are two exceptions: a huge number makes all others
+                        # negligible, and compression spreads the damage.
                         if place > 2 * len(data) // 3 and np.abs(found.positions).max() < 1e10:
                             self.assertLess(rows, 2)
         self.assertGreater(refused, DAMAGES * len(DAMAGED) // 4)

@@ -38,7 +38,7 @@ def rims(camera, size, centers, radii):
             x = sign * (ways @ axis)
             if camera.vertical_extent is not None:
                 yield (x + radii) / (0.5 * aspect * camera.vertical_extent)
-            else:  # seen from the pinhole, a ball at x and z reaches the angle atan(x / z) + asin(r / |x, z|)
+            else:  # Seen from the pinhole, a ball at x and z reaches the angle atan(x / z) + asin(r / |x, z|).
                 angle = np.arctan2(x, depth) + np.arcsin(radii / np.hypot(x, depth))
                 yield np.tan(angle) / (aspect * np.tan(VERTICAL_FOV / 2))
 
@@ -160,7 +160,8 @@ class Series(unittest.TestCase):
                 self.assertEqual(each.layout.size, staged[0].layout.size)
                 spans.append([float(rim.max()) for rim in rims(each.layout.camera, each.layout.size, centers, radii)])
             self.assertLess(np.max(spans), 1 - 2 * MARGIN + 1e-9)
-            self.assertGreater(np.max(spans), 0.995 * (1 - 2 * MARGIN))  # between 40 turns, the farthest ball is missed by (pi / 40)^2 / 2
+            self.assertGreater(np.max(spans), 0.995 * (1 - 2 * MARGIN))  # The farthest ball lies between 40 tried turns, which costs up to
+                                                                         # (pi / 40)^2 / 2.
             axis = np.cross(np.subtract(staged[10].layout.camera.position, staged[0].layout.camera.position),
                             np.subtract(staged[20].layout.camera.position, staged[0].layout.camera.position))
             self.assertAlmostEqual(abs(axis @ staged[0].layout.stage.lamps[0].center - axis @ np.array(
@@ -185,7 +186,7 @@ class TypicalRadius(unittest.TestCase):
                 apart[apart == 0] = np.inf
                 nearest = np.sort(apart, axis=1)[:, :4]
                 expected = np.median(nearest[:, 0])
-                if np.quantile(nearest[:, 0], 0.05) < 0.5 * expected:  # at random
+                if np.quantile(nearest[:, 0], 0.05) < 0.5 * expected:  # random positions
                     expected = np.median(nearest[:, 3])
                 np.testing.assert_allclose(typical_radius(points.astype(np.float32)), 0.5 * expected, rtol=0.1)
         self.assertEqual(typical_radius(np.ones((5, 3))), 1.0)

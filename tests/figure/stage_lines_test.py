@@ -32,8 +32,7 @@ def staged_of(projection, size, **options):
 
 
 def rays(camera, size):
-    """Returns origins and unit directions of the rays through the centers of hits, with the shape (rows, columns,
-    3)."""
+    """Returns origins and unit directions of the rays through the centers of pixels, with the shape (rows, columns, 3)."""
     right, above, back = camera.axes()
     rows, columns = np.indices((size[1] * PER_SIDE, size[0] * PER_SIDE)) + 0.5
     x, y = 2 * columns / columns.shape[1] - 1, 1 - 2 * rows / rows.shape[0]
@@ -48,15 +47,14 @@ def rays(camera, size):
 
 
 def first_hits(origins, ways, capsules=((), (), 0.0)):
-    """Returns the index of the ball or capsule that each ray hits first, or -1. Capsules are numbered after the
-    balls."""
+    """Returns for each ray the index of the ball or capsule that it hits first, or -1. Capsules are numbered after the balls."""
     begins, ends, radius = capsules
     distances = np.full((*ways.shape[:-1], len(CENTERS) + len(begins)), np.inf)
     for k, (center, size) in enumerate(zip(CENTERS, RADII)):
         distances[..., k] = to_ball(origins - center, ways, size)
     for k, (begin, end) in enumerate(zip(begins, ends), len(CENTERS)):
         axis = (end - begin) / np.linalg.norm(end - begin)
-        start, way = (each - (each @ axis)[..., None] * axis for each in (origins - begin, ways))  # across the axis
+        start, way = (each - (each @ axis)[..., None] * axis for each in (origins - begin, ways))  # parts perpendicular to the axis
         scale = np.linalg.norm(way, axis=-1)
         side = to_ball(start, way / scale[..., None], radius) / scale
         along = (origins - begin) @ axis + np.where(np.isfinite(side), side, 0) * (ways @ axis)
@@ -67,7 +65,7 @@ def first_hits(origins, ways, capsules=((), (), 0.0)):
 
 
 def to_ball(start, way, radius):
-    """Returns distances from outside to a ball at the origin. `way` has unit vectors."""
+    """Distances from outside to a ball at the origin. `way` has unit vectors."""
     along = -(start * way).sum(axis=-1)
     square = radius**2 - ((start * start).sum(axis=-1) - along**2)
     return np.where(square >= 0, along - np.sqrt(np.maximum(square, 0)), np.inf)
@@ -83,20 +81,20 @@ class Lines(unittest.TestCase):
         cls.context = cls.enterClassContext(pt.Context())
 
     def test_coverage(self):
-        """One or two hits of 16 may be rounded differently at a border."""
+        """Up to two of 16 hits may be rounded differently at a border."""
         for projection in ("perspective", "orthographic"):
             staged = staged_of(projection, SIZE)
             shapes = shares_of(staged, self.context).shapes
             edges = staged.scene.sphere_arrays[1]
             shown = first_hits(*rays(staged.layout.camera, SIZE), (*cell_edges(CELL), edges.radius[0]))
-            self.assertEqual(shapes.max(), 1.0)  # within balls
+            self.assertEqual(shapes.max(), 1.0)  # inside balls
             self.assertLess(np.abs(shapes - share(shown >= 0)).max(), 2.5 / 16)
             wider = first_hits(*rays(staged.layout.camera, SIZE), (*cell_edges(CELL), edges.radius[0] * 1.2))
             self.assertGreater(np.abs(shapes - share(wider >= 0)).max(), 2.5 / 16)
 
     def test_edges_have_their_width_in_pixels(self):
-        """Measures two slanting edges, in a plane perpendicular to the view, along 60 rows. Samples a quarter of a
-        pixel apart measure the width within 5%. Negative control: 20% more."""
+        """Measures two slanting edges in a plane perpendicular to the view, along 60 rows. Samples a quarter of a pixel apart give the
+        width within 5%. Negative control: a width that is 20% larger."""
         flat = Particles(np.zeros((1, 3)), cell=Cell.of([[4.5, 0, 0], [0, 1e-5, 0], [2.3, 0, 6]], (-3.4, 0, -3)))
         for size in ((1250, 100), (200, 100)):
             for projection in ("perspective", "orthographic"):
@@ -118,8 +116,8 @@ class Lines(unittest.TestCase):
         np.testing.assert_allclose(edges.radius, 0.5 * 8 / 64)
 
     def test_outlines_go_round_the_balls(self):
-        """Balls have outlines in front of the background and of other balls. There are no outlines inside balls,
-        along cell edges in front of balls, or elsewhere."""
+        """Balls have outlines where the background or another ball is behind them. There are no outlines inside balls, along cell edges in
+        front of balls, or elsewhere."""
         for projection in ("perspective", "orthographic"):
             size = (96, 72)
             staged = staged_of(projection, size, outlines=True)
@@ -130,7 +128,7 @@ class Lines(unittest.TestCase):
                 np.testing.assert_array_equal(getattr(shares, name), getattr(whole, name))
             capsules = *cell_edges(CELL), staged.scene.sphere_arrays[1].radius[0]
             shown = first_hits(*rays(staged.layout.camera, size), capsules)
-            balls = np.where(shown < len(CENTERS), shown, -2)  # -2: an edge
+            balls = np.where(shown < len(CENTERS), shown, -2)  # -2 is an edge.
             edges, rims = np.zeros(balls.shape, bool), np.zeros(balls.shape, bool)
             for axis in (0, 1):
                 for step in (1, -1):

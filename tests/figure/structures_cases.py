@@ -1,10 +1,10 @@
-"""Small files of all formats of atoms, written by hand, with their content or the messages that refuse them."""
+"""Small hand-written files of all formats of atoms, with their content or the messages that refuse them."""
 
 import gzip
 
 
 def atom(name, residue, x, element="", number=1, kind="ATOM", alternative="", chain="A", resid=1, occupancy=1.0):
-    """Returns a line of a PDB file. Names fill columns 13 to 16 exactly."""
+    """A line of a PDB file. Names fill columns 13 to 16 exactly."""
     return (f"{kind:<6}{number:5} {name:<4}{alternative:1}{residue:>3} {chain}{resid:4}    {x:8.3f}{0:8.3f}{0:8.3f}{occupancy:6.2f}"
             f"{0:6.2f}          {element:>2}\n")
 

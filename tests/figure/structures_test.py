@@ -1,4 +1,4 @@
-"""Tests atoms, elements, bonds and cells of small files of all formats."""
+"""Tests atoms, elements, bonds and cells of the files in structures_cases.py."""
 
 import gzip
 import importlib.util
@@ -15,7 +15,7 @@ from pt.figures._elements import SYMBOLS
 from pt.figures._errors import DataError
 from structures_cases import CASES, MMCIF, REFUSED, gro, lammps
 
-DAMAGES = 6  # per file
+DAMAGES = 6  # damages per file
 LETTERS = b" \n0123456789.-+eEdX\"'\t\xff\0"
 
 DATA = pathlib.Path(__file__).resolve().parents[2] / "tests/data/structures"
@@ -129,7 +129,7 @@ class Large(InAFolder):
 
 
 class Damaged(InAFolder):
-    """Damaged files must be read, or be refused with a message that names the file."""
+    """A damaged file must be read, or be refused with a message that names the file."""
 
     def test_damages(self):
         generator = np.random.default_rng(1)
@@ -169,7 +169,7 @@ class Binary(InAFolder):
             file.append(frame)
         found = load(path)
         self.check(found, ["A", "B"], x=[-1, 1], cell=[4, 45**0.5, 8], origin=[-3.5, -3, -4], bonds=[[0, 1]])
-        self.assertIsNone(found.radii)  # the file leaves out HOOMD's default diameter
+        self.assertIsNone(found.radii)  # The file omits HOOMD's default diameter.
 
     @unittest.skipUnless(HAS["chemfiles"], "chemfiles is not installed")
     def test_trajectories_take_their_atoms_from_the_topology(self):
@@ -199,7 +199,7 @@ class Binary(InAFolder):
 
 
     def test_dcd_without_a_cell(self):
-        """The file is written by hand, with cells like MDAnalysis's."""
+        """A hand-written file, with a cell like MDAnalysis's."""
         def record(data):
             return struct.pack("<i", len(data)) + data + struct.pack("<i", len(data))
         path, topology = self.folder / "a.dcd", self.folder / "a.gro"

@@ -86,7 +86,7 @@ void require_scene(const pt::Scene &scene) {
 }
 
 void require_camera(const pt::Camera &camera) {
-    // At the smallest angle between `up` and the view, the error is 5 * 2^-53 / 2^-26 (camera.cpp). Between two such
+    // The error is 5 * 2^-53 / 2^-26 at the smallest angle between `up` and the view (camera.cpp). Between two such
     // vectors the error doubles.
     constexpr double rounding = 10 * 0x1p-27;
     require(are_lengths(camera.position), "the camera's position is made of lengths");

@@ -45,7 +45,7 @@ static_assert(PT_LOG_ERROR == 1 && PT_LOG_WARNING == 2 && PT_LOG_INFO == 3);
 static_assert(PT_CREATE_VALIDATION == 1);
 static_assert(PT_LIGHT_EQUAL_BITS == 1 && PT_LIGHT_SAME == 2 && PT_LIGHT_DIFFERENT == 3 && PT_LIGHT_UNDECIDED == 4);
 
-// Functions have C linkage and these types.
+// These are the types of the functions, which have C linkage.
 static_assert(std::is_same_v<decltype(&pt_version), uint32_t (*)()>);
 static_assert(std::is_same_v<decltype(&pt_result_name), const char *(*)(pt_result)>);
 static_assert(std::is_same_v<decltype(&pt_next_check), uint32_t (*)(uint32_t)>);

@@ -25,7 +25,7 @@ struct InvarianceScene {
 
     pt_scene scene() const { return scene_of(materials, spheres, planes); }
 
-    // All coordinates are multiples of 1/2, and all normals are axes.
+    // Coordinates are multiples of 1/2, and normals are axes.
     static InvarianceScene coursework() {
         const CourseworkScene source;
         InvarianceScene result{{source.materials.begin(), source.materials.end()},
@@ -86,7 +86,7 @@ struct InvarianceScene {
         }
     }
 
-    // `matrix` has orthonormal rows, for a rotation or a reflection.
+    // `matrix` has orthonormal rows.
     void turn(const double (&matrix)[3][3]) {
         const auto turned = [&](double(&vector)[3]) {
             double result[3];

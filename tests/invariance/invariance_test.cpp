@@ -43,7 +43,6 @@ protected:
     void SetUp() override {
         ContextFixture::SetUp();
         original_ = image_of(scene());
-        // Negative control.
         InvarianceScene changed = scene();
         changed.spheres[2].radius *= 1.03;
         EXPECT_GT(differing_values(image_of(changed), original_), 100U);
@@ -57,7 +56,7 @@ private:
     Image original_;
 };
 
-// Powers of two change no mantissa. If the kernel had a fixed length, some of these scales would show it.
+// Powers of two change no mantissa. Some of these scales would reveal a fixed length in the kernel.
 TEST_P(Invariance, UnitOfLength) {
     for (const int exponent : {-50, -20, -4, 20, 50}) {
         SCOPED_TRACE(exponent);
@@ -67,7 +66,7 @@ TEST_P(Invariance, UnitOfLength) {
     }
 }
 
-// Positions relative to the camera are computed in double, and exact sums stay exact.
+// Positions relative to the camera are computed in double. Here the sums are exact.
 TEST_P(Invariance, Origin) {
     const double ways[][3] = {
         {1048576, -524288, 262144.5}, {1e6, -1e6, 1e6}, {-999999.5, 123456.25, 0.125}, {0, 3, -65536}};
@@ -80,8 +79,8 @@ TEST_P(Invariance, Origin) {
 }
 
 // Sums at 1e6 are rounded to 2^-34, which can change a float32 by 2^-23. The ends of rays then move by up to 1e-6 of
-// the scene's size. A few of the 2048 * 16 paths hit another surface, and each has about 1e-5 of the light. The other
-// paths differ by about 1e-6.
+// the scene's size. A few of the 2048 * 16 paths hit another surface, and each has about 1e-5 of the light. The light
+// of the other paths changes by about 1e-6.
 TEST_P(Invariance, OriginRounded) {
     InvarianceScene original = scene();
     original.turn({{0.36, 0.48, -0.8}, {-0.8, 0.6, 0}, {0.48, 0.64, 0.6}});

@@ -1,4 +1,4 @@
-// Tests changes of a scene that keep the image but not its noise.
+// Tests changes of a scene that keep the image apart from its noise.
 #include "tests/invariance/invariance_scene.h"
 #include "tests/support/batch_fixture.h"
 
@@ -34,7 +34,7 @@ struct Agreement {
     double largest_t;
 };
 
-// Computes Student's t for two means with equal noise, with 2 * (16 - 1) degrees of freedom.
+// Student's t for two means with equal noise. It has 2 * (16 - 1) degrees of freedom.
 Agreement agreement(const Batches &a, const Batches &b) {
     Agreement result{0.0, 0.0};
     for (std::size_t block = 0; block < blocks; ++block) {
@@ -49,11 +49,10 @@ Agreement agreement(const Batches &a, const Batches &b) {
     return result;
 }
 
-// With k = 30 degrees of freedom, t^2 has the mean k / (k - 2) = 1.071 and the deviation 1.6. The deviation of the mean
+// For k = 30 degrees of freedom, t^2 has the mean k / (k - 2) = 1.071 and the deviation 1.6. The deviation of the mean
 // over 128 blocks is 0.14.
 constexpr double expected_mean_square_t = 30.0 / 28.0;
 constexpr double mean_square_t_bound = expected_mean_square_t + 6.0 * 0.14;
-// The false alarm rate is one in a million over the blocks of six comparisons.
 const double largest_t_bound = student_bound(1e-6 / (6.0 * blocks), 2 * batch_count - 1);
 
 class Symmetry : public BatchFixture, public testing::WithParamInterface<InvarianceOf> {
@@ -114,7 +113,7 @@ TEST_P(Symmetry, Mirror) {
         << "the scene is symmetric";
 }
 
-// Turns by the integers of a Pythagorean quadruple, around an oblique axis.
+// Turns around an oblique axis, by the integers of a Pythagorean quadruple.
 TEST_P(Symmetry, Rotation) {
     InvarianceScene turned = scene();
     turned.turn({{2.0 / 3, -2.0 / 3, 1.0 / 3}, {1.0 / 3, 2.0 / 3, 2.0 / 3}, {-2.0 / 3, -1.0 / 3, 2.0 / 3}});

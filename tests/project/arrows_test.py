@@ -10,7 +10,6 @@ ORDERS = {"cli": ("base", "image", "film", "scene", "render", "merge", "denoise"
 
 
 def arrows(part, includes):
-    """`includes` has pairs of a room and the text of a file."""
     order = ORDERS[part]
     found = set()
     for room, text in includes:

@@ -10,12 +10,12 @@ PAGES += [*(ROOT / "tests").glob("*/**/*.md"), *(ROOT / "lib").glob("*/*.md")]
 CURRENT = [page for page in PAGES if page.name not in ("CHANGELOG.md", "NOTEBOOK.md")]  # pages without history
 CODE = re.compile(r"\.(h|c|cpp|glsl|comp|py|json|csv|cmake|sh)$|^CMakeLists\.txt$")
 
-# The largest number of words of a page, and of all pages except the changes.
+# The largest numbers of words: of each page, and of all pages except the changes.
 MOST_WORDS = {"README.md": 1230, "CONTRIBUTING.md": 1400, "cli/README.md": 4785, "shaders/README.md": 6320,
               "tests/bench/README.md": 1500}
 MOST_WORDS_IN_ALL = 23_950
 
-# Each row has a pattern for pages, a file, and a pattern for the file. Groups are in the same order.
+# Each row has a pattern for pages, a file, and a pattern for this file. The groups of both patterns must be equal.
 NUMBERS = (
     (r"(?:[Ff]rom|scenes of) (\d+) spheres\s+o[nr]\b", "lib/tree/tree_choice.h", r"default_tree_from = (\d+);"),
     (r"[Uu]p to (\d+) (?:spheres )?that reach\s+(\d+) times as far", "lib/tree/tree_choice.cpp",
@@ -35,8 +35,7 @@ NUMBERS = (
 
 
 def anchors(text):
-    """Returns the anchors that repository hosts make from headings: in lower case, without punctuation, with hyphens
-    for blanks."""
+    """The anchors that repository hosts make from headings: lower case, hyphens for blanks, no punctuation."""
     headings = re.findall(r"^#+ (.*)$", re.sub(r"```.*?```", "", text, flags=re.DOTALL), re.MULTILINE)
     names = re.findall(r'<a name="([^"]+)">', text)
     return {re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-") for heading in headings} | set(names)
@@ -60,7 +59,7 @@ def code_files():
 
 
 def names_of_code(text):
-    """Returns the code spans that are identifiers with an underscore, and those that name source files and folders."""
+    """The code spans that are identifiers with an underscore, and the code spans that name source files or folders."""
     spans = re.findall(r"`([\w./]+)(?:\(\))?`", re.sub(r"```.*?```", "", text, flags=re.DOTALL))
     others = {span for span in spans if re.search(r"/|\.(h|c|cpp|glsl|comp|py|json|md|sh|exr|png)$", span)}
     identifiers = {word for span in spans if span not in others for word in span.split(".") if "_" in word}
@@ -127,7 +126,7 @@ class Documents(unittest.TestCase):
 
     def test_comments_name_files_that_exist(self):
         files = {path.name for path in ROOT.rglob("*.*") if not path.relative_to(ROOT).parts[0].startswith((".", "build"))}
-        files.add("sysexits.h")  # the system's
+        files.add("sysexits.h")  # header of the system
         for path in (path for path in code_files() if path.suffix in (".h", ".cpp", ".glsl", ".comp")):
             comments = " ".join(re.findall(r"//[^\n]*|/\*.*?\*/", path.read_text(encoding="utf-8"), re.DOTALL))
             names = re.findall(r"([\w-]+\.(?:h|cpp|glsl|comp|py|md|cmake|sh))\b", comments)

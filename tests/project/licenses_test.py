@@ -8,7 +8,7 @@ import unittest
 
 ROOT, BUILD = pathlib.Path(__file__).resolve().parents[2], pathlib.Path(os.environ["PT_BUILD"])
 LICENSES = ROOT / "cmake/licenses"
-# Libraries and headers of the system and the compiler. Their licenses require nothing of programs.
+# Libraries and headers of the system and the compiler. Programs that use them need no notices.
 SYSTEM_LIBRARIES = {"libvulkan", "dl", "rt"}
 SYSTEM_HEADERS = set("""cpuid dlfcn emmintrin fcntl io mach-o/dyld math psapi pthread signal stdatomic stddef stdint stdio
     stdlib sys/file sys/ioctl sys/resource sys/stat sys/sysctl sys/sysinfo time unistd windows""".split())
@@ -18,7 +18,7 @@ BINARIES = {"lib/libpt.so.": "runtime", "bin/pt:": "program", "lib/pt/libpt-glsl
 
 
 def parts():
-    """Maps (component, header or library or file) to the name."""
+    """Maps (component, header or library or file) to the part's name."""
     found = {}
     for line in (LICENSES / "parts.txt").read_text().splitlines():
         if not line.startswith("#"):
@@ -28,7 +28,7 @@ def parts():
 
 
 def foreign_headers(text):
-    """Returns the first folders, or the names, of headers of other projects."""
+    """First folders, or the names, of other projects' headers."""
     included = re.findall(r"^#include <([\w./-]+)\.h(?:pp)?>", text, re.MULTILINE)
     return {name.split("/")[0] if "/" in name else f"{name}.h" for name in included
             if name not in SYSTEM_HEADERS and not name.startswith("pt/")}
@@ -65,7 +65,7 @@ class Licenses(unittest.TestCase):
         found = included() | linked(rules) | copied()
         self.assertGreaterEqual(len(found), 15)
         self.assertEqual(sorted(found - set(parts())), [])
-        # All rows must be used, except for wheels and for libraries of other versions of a package.
+        # Every row must be used. Rows of wheels, and of other versions of a package's library, are exempt.
         names = {parts()[each] for each in found}
         self.assertEqual(names ^ set(parts().values()), set())
 

@@ -10,7 +10,7 @@ import unittest
 
 SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "cmake/quickstart.sh"
 
-# The stand-in records its command line, and exits with its status in FAILING.
+# A program that records its command line. Its exit status comes from FAILING.
 STAND_IN = """#!/bin/sh
 line="$(basename "$0") $*"
 echo "$line" >> "$NOTES"

@@ -1,5 +1,6 @@
-"""Checks that the headers document everything: reference_pages_test.py DOXYGEN DOXYFILE HEADERS. Doxygen runs with
-warnings as errors. Each enumerator needs a comment, and each function needs its threads. HEADERS is a folder, and
+"""Checks that the headers document everything: reference_pages_test.py DOXYGEN DOXYFILE HEADERS.
+
+Doxygen's warnings are errors. Each enumerator needs a comment, and each function must state its threads. HEADERS is a folder, and
 `headers` maps names to texts.
 """
 
@@ -11,7 +12,6 @@ import tempfile
 
 
 def doxygen_complaints(doxygen, settings, headers):
-    """Returns Doxygen's warnings."""
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name) / "pt"
         folder.mkdir()

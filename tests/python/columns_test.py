@@ -4,7 +4,7 @@ import numpy as np
 import pt
 from pictures import LAMP, WHITE, cloud, radiance
 
-COUNT = 120  # from 113 spheres on, the scene has a tree
+COUNT = 120  # The scene has a tree from 113 spheres on.
 POSITIONS, COLORS = cloud(COUNT)
 RADII = np.linspace(0.05, 0.2, COUNT, dtype=np.float32)
 MATERIALS = [WHITE, pt.Material(diffuse=0.5, specular=0.4, glossiness=20)]
@@ -44,7 +44,7 @@ class Columns(unittest.TestCase):
         np.testing.assert_array_equal(radiance(self.context, one_by_one), radiance(self.context, scene_of(without)))
 
     def test_ends_make_capsules(self):
-        self.check((), end=POSITIONS)  # of no length
+        self.check((), end=POSITIONS)  # an axis of no length
         ends = POSITIONS + np.float32([0.3, 0, 0])
         capsules = radiance(self.context, scene_of(pt.SphereArray(POSITIONS, RADII, INDICES, color=COLORS, end=ends)))
         self.assertTrue(self.context.stats().features & pt.Feature.CAPSULES)
@@ -101,7 +101,7 @@ class Columns(unittest.TestCase):
         linear = np.where(signal <= 0.04045, signal / 12.92, ((signal + 0.055) / 1.055)**2.4)
         images = [radiance(self.context, scene_of(pt.SphereArray(POSITIONS, RADII, 0, color=color)))
                   for color in (srgb, linear)]
-        # Trees store colors to a thousandth, and a path hits up to six surfaces.
+        # Trees store colors to a thousandth, and a path hits at most six surfaces.
         np.testing.assert_allclose(*images, rtol=2e-3 * 6)
         self.assertGreater(np.abs(images[0] - self.plain).max(), 0.01)
 

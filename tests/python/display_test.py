@@ -1,4 +1,4 @@
-"""Images in NumPy must have the program's bytes as pictures and in files."""
+"""Displayed NumPy images and their files must have the program's bytes."""
 
 import json
 import os

@@ -1,4 +1,4 @@
-"""Tests that sums of films equal the bits of one rendering, also through pickles and files."""
+"""Sums of films have the bits of one rendering, also after pickling and files."""
 
 import pathlib
 import pickle
@@ -77,7 +77,7 @@ class Films(unittest.TestCase):
             self.assertEqual([found.name for found in pathlib.Path(folder).iterdir()], ["kept.ptfilm"])
 
     def test_packed_files(self):
-        """The program writes packed files. The module that unpacks them may be missing."""
+        """The program writes packed files. The module that unpacks these may be missing."""
         packed = _zstd.MAGIC + b"frame"
         module = mock.Mock(decompress=lambda data: self.whole.to_bytes() if data == packed else b"")
         with mock.patch.dict(sys.modules, {"compression.zstd": None, "zstandard": module}):
@@ -91,7 +91,7 @@ class Films(unittest.TestCase):
         np.testing.assert_array_equal(image.radiance, self.image.radiance)
         np.testing.assert_array_equal(image.standard_error, self.image.standard_error)
         self.assertTrue((image.sample_count == SAMPLES).all())
-        # A GPU computes errors in float32.
+        # A GPU has float32 errors.
         self.assertAlmostEqual(image.error, self.image.error, delta=1e-5 * image.error)
         part = np.zeros((4, 6, 4), np.float16)
         self.whole.readback(out=part, rectangle=(3, 5, 6, 4))

@@ -6,7 +6,7 @@ import numpy as np
 import pt
 from pictures import SCENE, WHITE, cloud, ready
 
-ENDLESS = 2**20  # minutes on CPUs
+ENDLESS = 2**20  # takes minutes on CPUs
 MANY = 300_000
 
 
@@ -24,7 +24,7 @@ def ring(_signal, _frame):
 
 class Interrupts(unittest.TestCase):
     def setUp(self):
-        signal.signal(signal.SIGINT, signal.default_int_handler)  # shells let background jobs ignore it
+        signal.signal(signal.SIGINT, signal.default_int_handler)  # Shells let background jobs ignore SIGINT.
         signal.signal(signal.SIGALRM, ring)
         self.context = ready(pt.Context(submit_milliseconds=1))
         self.addCleanup(self.context.close)
@@ -89,7 +89,7 @@ class Interrupts(unittest.TestCase):
             self.check_usable()
 
     def test_a_signal_while_samples_are_taken(self):
-        """Without a progress function, the signal's exception must still come."""
+        """The signal's exception must also be raised without a progress function."""
         for _ in range(3):
             with self.assertRaises(Alarm):
                 signal.setitimer(signal.ITIMER_REAL, 0.02)

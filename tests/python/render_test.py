@@ -57,8 +57,7 @@ class Render(unittest.TestCase):
         self.assertEqual(few.stats.max_sample_count, 20)
 
     def test_the_camera_touches_the_spheres(self):
-        """All spheres are in view, and one touches the edge of the image. A sphere at x and z reaches the angle
-        atan(x / z) + asin(r / |x, z|)."""
+        """All spheres are in view, and one touches the edge. A sphere at x and z reaches the angle atan(x / z) + asin(r / |x, z|)."""
         radii = np.linspace(0.05, 0.4, len(POSITIONS))
         for aspect, direction in ((1.5, (0.5, 0.4, 1)), (0.5, (-1, 0.2, 0)), (3.0, (0, -1, 1))):
             camera = pt.Camera.around(POSITIONS, radii, direction=direction, aspect=aspect, margin=1)

@@ -1,4 +1,4 @@
-"""Pipes and other special files must be refused at once. Control characters must be escaped before printing."""
+"""Special files such as pipes must be refused at once. Control characters must not be printed."""
 
 import contextlib
 import io

@@ -1,5 +1,4 @@
-"""Tests scenes of Tachyon. Sections are compared with exact values, and pictures with Tachyon's. Damaged files are
-refused."""
+"""Tests scenes of Tachyon. Sections have exact values, and pictures are compared with Tachyon's. Damaged files are refused."""
 
 import json
 import math
@@ -15,7 +14,7 @@ from pt.tachyon import _command, _lights
 from pt.tachyon._reader import parse, read
 
 DATA = pathlib.Path(__file__).resolve().parents[2] / "tests/data/tachyon"
-# The scene is as VMD writes it. z is reversed.
+# VMD writes scenes like this. z is reversed.
 SCENE = """# as VMD has it
 Begin_Scene
 Resolution 64 32
@@ -58,7 +57,7 @@ class Sections(unittest.TestCase):
         self.assertEqual(found.camera.position, (1, 2, 3))
         self.assertEqual(found.camera.up, (0, 1, -0.5))
         self.assertAlmostEqual(math.tan(found.camera.vertical_fov / 2), 1, 14)  # half of 1 / ZOOM
-        # The target is the point on the view's axis nearest to (1.5, 2, -7), the center of both spheres' box.
+        # The target is the point on the view's axis nearest to (1.5, 2, -7), the middle of both spheres.
         self.assertEqual(found.camera.target, (1, 2, -7))
         self.assertEqual(found.notes, [])
 
@@ -80,7 +79,7 @@ class Sections(unittest.TestCase):
         self.assertEqual((plane.normal, plane.offset), ((0, 2, -1), 6))  # 2 y - z + 6 is 0 at (0, -5, -4)
         gold, mirror = (scene.materials[index] for index in spheres.material)
         self.assertEqual(scene.materials[plane.material], gold)
-        self.assertEqual(gold, pt.Material((0.5, 0.25, 0.125), (0.05, 0.025, 0.0125), glossiness=18))  # the peak is 10 times as high
+        self.assertEqual(gold, pt.Material((0.5, 0.25, 0.125), (0.05, 0.025, 0.0125), glossiness=18))  # The peak is 10 times as high.
         self.assertEqual(mirror, pt.Material((0, 0.5, 1), 0.75, glossiness=1e6))
         self.assertEqual(parsed(("Metal", "Plastic")).scene.materials[0].specular, (0.05, 0.05, 0.05))
 
@@ -96,7 +95,7 @@ class Sections(unittest.TestCase):
         np.testing.assert_array_equal(capsules.end, [[4, 5, -6.5], [0, 2, -1], [3, 2, -1], [7, 8, -9]])
         np.testing.assert_array_equal(capsules.radius, [0.25, 0.5, 0.5, 2])
         self.assertEqual(capsules.material.tolist(), [0, 0, 0, 0])
-        self.assertEqual(found.camera.target, (1, 2, -5.75))  # center of -0.5 to -11
+        self.assertEqual(found.camera.target, (1, 2, -5.75))  # z is the middle of -0.5 and -11.
         for ring in ("Center 1 2 3 Normal 0 0 1 Inner 0.1 Outer 0.25", "Center 1 2 3 Normal 0 0 1 Inner 0 Outer 0.5",
                      "Center 1 2 4 Normal 0 0 1 Inner 0 Outer 0.25"):
             with self.subTest(ring), self.assertRaisesRegex(ValueError, "a.dat:29: RING is a ring: only spheres, cylinders"):
@@ -133,10 +132,10 @@ class Sections(unittest.TestCase):
 
     def test_lights_are_lamps(self):
         sun, lamp, sky = parsed().scene.spheres
-        distance = 100 * math.sqrt(170)  # a hundred times the distance of the light, which is farthest: sqrt(1 + 13^2)
+        distance = 100 * math.sqrt(170)  # a hundred times the distance of the farthest light, sqrt(1 + 13^2)
         self.assertAlmostEqual(sun.center[1], 2 + distance, 9)
         self.assertAlmostEqual(sun.radius, distance / 50, 9)
-        share = 1 - 0.5 / 2.25  # the background gives 0.5, and both lights give up to 2.25
+        share = 1 - 0.5 / 2.25  # 0.5 of the background and up to 2.25 of both lights
         np.testing.assert_allclose(sun.material.emission, share * np.array([2500, 1250, 625]), rtol=1e-12)
         self.assertTrue(sun.material.hidden_from_camera)
         self.assertEqual((lamp.center, lamp.radius), ((2, 2, 6), 0.5))
@@ -220,7 +219,7 @@ class Lamps(unittest.TestCase):
     def test_they_touch_nothing(self):
         light = _lights.Light("", (1, 1, 1), (3, 4, 0))
         self.assertAlmostEqual(self.only_lamp(light, [(3, 4, 2, 1.9)]).radius, 0.05, 12)
-        self.assertAlmostEqual(self.only_lamp(light, [(3, 4, 2, 2.125)]).radius, 0.0625, 12)  # inside it
+        self.assertAlmostEqual(self.only_lamp(light, [(3, 4, 2, 2.125)]).radius, 0.0625, 12)  # inside the capsule
         along = self.around([(0, 0, 0, 0.5)], way=(4, 4, 0))  # the capsule's axis
         for point, gap in (((3, 1, 0), math.sqrt(2)), ((2, 2, 3), 3), ((-3, 0, 4), 5), ((7, 8, 0), 5), ((1, 1, 0), 0)):
             self.assertAlmostEqual(along.clearance(np.array(point)), abs(gap - 0.5), 12)
@@ -247,8 +246,8 @@ class Lamps(unittest.TestCase):
 
 class Pictures(unittest.TestCase):
     def test_the_first_surfaces_are_those_that_tachyon_shows(self):
-        """In Tachyon's pictures, ball i has 10 (i + 1) in red, and plane i has 10 (i + 1) in green. Tachyon samples
-        the upper right corners of pixels."""
+        """In Tachyon's pictures, ball i has red 10 (i + 1), and plane i has green 10 (i + 1). Tachyon samples the upper right corners of
+        pixels."""
         for name in ("perspective", "parallel"):
             with self.subTest(name):
                 found = read(DATA / f"{name}.dat")
@@ -276,7 +275,7 @@ class Pictures(unittest.TestCase):
         distances[~(distances > 0)] = np.inf
         nearest, second = np.partition(distances, 1, axis=0)[:2]
         certain = second - nearest > 1e-3
-        for center, radius in zip(spheres.center, spheres.radius):  # edges are uncertain
+        for center, radius in zip(spheres.center, spheres.radius):  # Edges are uncertain.
             toward = center - starts
             miss = np.linalg.norm(toward - np.sum(toward * ways, -1)[..., None] * ways, axis=-1)
             certain &= np.abs(miss - radius) > 1e-3

@@ -1,5 +1,3 @@
-"""Tests access to the server of pt view, and its answers."""
-
 import asyncio
 import contextlib
 import http.client
@@ -118,7 +116,7 @@ class Views(unittest.TestCase):
         for name in ("view.js", "tone.js", "view.css", "codemirror.js"):
             self.assertEqual(self.request(good + name)[0], 200)
         port = self.host.partition(":")[2]
-        for host in (f"localhost:{port}", "127.0.0.1:9", "localhost", "[::1]:80"):  # the end of a tunnel has another port
+        for host in (f"localhost:{port}", "127.0.0.1:9", "localhost", "[::1]:80"):  # The end of a tunnel has another port.
             self.assertEqual(self.request(good, Host=host)[0], 200, host)
             self.assertEqual(self.request(good, Host=host, Origin=f"http://{host}")[0], 200, host)
         for host in ("example.org", f"127.0.0.1.example.org:{port}", f"example.org:{port}", "", "127.0.0.1:1:2", "127.0.0.2"):
@@ -138,7 +136,7 @@ class Views(unittest.TestCase):
                      "package.json", ".", "..", "view.js/", "view.js%00", "...", "x" * 3000):
             self.assertIn(self.request(f"/{self.token}/{name}")[0], (403, 404), name)
         with Page(self.view) as page:
-            self.assertEqual(page.ask({"list": True}), {"files": []})  # nothing is editable
+            self.assertEqual(page.ask({"list": True}), {"files": []})  # nothing may be edited
             for name in (str(self.scene), "a scene.json", "../x", None, 7, ["a"]):
                 self.assertIn("refused", page.ask({"open": name}))
                 self.assertIn("refused", page.ask({"save": name, "text": "x"}))
@@ -167,7 +165,7 @@ class Views(unittest.TestCase):
             before = page.frame()
             self.assertIn("halton-cp", before["choices"]["sampler"])
             self.assertEqual(before["choices"]["estimator"][0], "best")
-            page.send({"camera": {**camera, "position": [0, 1, 0]}})  # the library's rule
+            page.send({"camera": {**camera, "position": [0, 1, 0]}})  # breaks the library's rule
             self.assertIn("position", page.frame(lambda state: state["faults"])["faults"][0]["text"])
             page.send({"camera": before["first_camera"]})
             page.frame(lambda state: not state["faults"] and state["samples"])
@@ -258,7 +256,7 @@ class Views(unittest.TestCase):
                     self.assertEqual(other.frame(lambda state: state["samples"])["size"], [24, 16])
             while renderer._is_watched:
                 pass
-            renderer._thread.join(0.3)  # work in progress
+            renderer._thread.join(0.3)  # work still running
             count = renderer._count
             renderer._thread.join(0.3)
             self.assertEqual(renderer._count, count)
@@ -344,7 +342,7 @@ class Edits(unittest.TestCase):
         np.testing.assert_array_equal(page.pixels, before)
         page.send({"save": "path.glsl", "text": text.replace(sought, "radiance = vec3(1.0) + emitted_by(hit.surface);")})
         page.frame(lambda state: not state["faults"] and state["samples"] == 16)
-        more = page.pixels - before  # 1 where there is a surface, except for rounding
+        more = page.pixels - before  # 1 where the ray hits a surface, apart from rounding
         self.assertTrue(np.isclose(more, 1.0, atol=1e-5).any() and (more > -1e-5).all() and (more < 1.00001).all())
         page.send({"save": "path.glsl", "text": text})
         page.frame(lambda state: state["samples"] == 16 and np.array_equal(page.pixels, before))
@@ -362,7 +360,7 @@ class Edits(unittest.TestCase):
         lamps = {**SCENE_FILE["materials"], "lamp": {"emission": [8, 6, 4]}}
         page.send({"save": "s.json", "text": text_of({**SCENE_FILE, "materials": lamps})})
         page.frame(lambda state: not state["faults"] and state["samples"] == 16)
-        np.testing.assert_array_equal(page.pixels, 2 * before)  # powers of two are exact
+        np.testing.assert_array_equal(page.pixels, 2 * before)  # Powers of two are exact.
 
 
 class Command(unittest.TestCase):

@@ -14,7 +14,6 @@ struct ReferenceImage {
     std::vector<float> radiance;
 };
 
-// Reads tests/reference/<name>.exr.
 inline ReferenceImage read_reference(const std::string &name) {
     const std::string path = PT_TEST_REFERENCE_DIR "/" + name + ".exr";
     const auto input = OIIO::ImageInput::open(path);

@@ -1,4 +1,4 @@
-// Compares the coursework scene with references of other renderers (tests/reference/README.md).
+// Compares the coursework scene with other renderers' images (tests/reference/README.md).
 #include "tests/render/reference_image.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
@@ -14,7 +14,7 @@ namespace {
 
 constexpr uint32_t width = 256;
 constexpr uint32_t height = 128;
-// Each batch has another seed, because quasi-random samples of one seed are dependent.
+// Each batch has another seed, because quasi-random samples of one seed depend on each other.
 constexpr uint32_t batch_count = 16;
 constexpr uint32_t batch_samples = 16;
 constexpr uint32_t block_size = 8;
@@ -24,7 +24,7 @@ struct Case {
     bool diffuse;
     uint32_t max_path_length;
     double reference_rmse;
-    uint32_t sampler; // like the reference
+    uint32_t sampler; // as in the reference
 };
 
 using Image = std::vector<float>;
@@ -57,7 +57,6 @@ double block_mean(const Image &image, uint32_t block) {
     return sum / (block_size * block_size * 3);
 }
 
-// Returns the squared noise of the mean of all batches.
 double noise_of_mean(const std::vector<Image> &batches) {
     double sum = 0.0;
     std::vector<double> values(batches.size());
@@ -74,8 +73,8 @@ struct Agreement {
     double largest_t;
 };
 
-// Computes Student's t for each block. The total noise of the reference is known. The noise of the reference is assumed
-// to be distributed over blocks like the noise of the batches.
+// Student's t for each block. The reference's total noise is known. Its distribution over blocks is assumed to be that
+// measured in the batches.
 Agreement agreement(const std::vector<Image> &batches, const Image &reference, double reference_rmse) {
     const double reference_share = reference_rmse * reference_rmse / noise_of_mean(batches);
     constexpr uint32_t blocks = (width / block_size) * (height / block_size);
@@ -87,7 +86,7 @@ Agreement agreement(const std::vector<Image> &batches, const Image &reference, d
             values[b] = block_mean(batches[b], block);
         const auto [mean, variance] = statistics::moments(values);
         const double expected = block_mean(reference, block);
-        if (variance == 0.0) { // only emission: exact except for float32 sums in the reference
+        if (variance == 0.0) { // Only emission is visible, and it is exact. Float32 sums in the reference are not.
             EXPECT_NEAR(mean, expected, 1e-5 * expected) << "block " << block;
             continue;
         }
@@ -101,12 +100,12 @@ Agreement agreement(const std::vector<Image> &batches, const Image &reference, d
     return result;
 }
 
-// With k = 15 degrees of freedom, t^2 has the mean k / (k - 2) = 1.154 and the deviation 1.84. The deviation of the
-// mean over 512 blocks is 0.081. The tolerance 0.5 allows for sums that are not quite normal, and still detects a bias
-// of one standard error in each block.
+// For k = 15 degrees of freedom, t^2 has the mean k / (k - 2) = 1.154 and the deviation 1.84. The deviation of the mean
+// over 512 blocks is 0.081. The tolerance 0.5 allows for sums that are not quite normal, and still detects a bias of
+// one standard error in each block.
 constexpr double expected_mean_square_t = 15.0 / 13.0;
 constexpr double mean_square_t_bound = expected_mean_square_t + 0.5;
-// With 15 degrees of freedom, P(|t| > 8.5) is 4e-7, and 2e-4 over 512 blocks.
+// For 15 degrees of freedom, P(|t| > 8.5) is 4e-7. Over 512 blocks this is 2e-4.
 constexpr double largest_t_bound = 8.5;
 
 class RenderTest : public ContextFixture {

@@ -22,7 +22,6 @@ constexpr uint32_t calibration_height = 128;
 
 using Image = std::vector<float>;
 
-// Returns sqrt(mean((x - r)^2 / (r^2 + 0.01))).
 double relative_rmse(const Image &image, const Image &reference) {
     double sum = 0.0;
     for (std::size_t i = 0; i < image.size(); ++i) {
@@ -40,8 +39,8 @@ struct Judgement {
     bool accepts(double ratio) const { return ratio >= low && ratio <= high; }
 };
 
-// The calibration is in shaders/README.md, section 11. The brightest few hundred random samples have the largest
-// weights, so both errors scatter. For sequences, stated errors are up to sqrt(3) larger (error_estimate.cpp), and
+// shaders/README.md, section 11, has the calibration. A few hundred of the brightest random samples have the largest
+// weights, so both errors scatter. For sequences, stated errors are up to sqrt(3) too large (error_estimate.cpp), and
 // their denominators add more.
 constexpr Judgement of_random{0.9, 1.2};
 constexpr Judgement of_sequence{0.8, 2.0};
@@ -79,8 +78,8 @@ protected:
     }
 };
 
-// Lamps are found by chance. If bright pixels were divided by their own means, the stated error would be less than half
-// of the true error. Division by the surroundings gives up to 1.73 times the true error here.
+// Lamps are found by chance. Errors of bright pixels relative to their own means would make the stated error less than
+// half of the true one. Relative to the surroundings, the stated error is up to 1.73 times the true one here.
 constexpr Judgement of_rare{0.9, 2.0};
 
 constexpr CalibrationCase calibration_cases[] = {
@@ -110,19 +109,19 @@ TEST_F(StatedError, IsThatByTheReference) {
             const pt_error_estimate stated = error();
             const double ratio = stated.relative_rmse / relative_rmse(image(), reference);
             EXPECT_TRUE(each.judgement.accepts(ratio)) << stats().sample_count << " samples: " << ratio;
-            // One of twenty true errors is outside the 95% bounds.
+            // The 95% bounds miss one of twenty true errors.
             EXPECT_GE(stated.relative_rmse_high, 0.9 * stated.relative_rmse / ratio);
             if (each.estimator == PT_ESTIMATOR_BEST) {
                 EXPECT_LE(stated.relative_rmse_low, 1.1 * stated.relative_rmse / ratio);
             }
-            // Negative control: a stated error that is too small.
+            // Negative control: the stated error is too small.
             EXPECT_FALSE(each.judgement.accepts(0.9 * each.judgement.low / each.judgement.high * ratio));
         }
     }
 }
 
-// 64 samples hit a lamp of 1/70 pixel about once, and often twice. If the estimate took these pixels for fireflies, the
-// stated error would be ten times too large.
+// 64 samples hit a lamp of 1/70 pixel about once, and often twice. If these pixels counted as rare samples, the stated
+// error would be ten times too large.
 TEST_F(StatedError, OfLampsBelowAPixelIsThatByManySamples) {
     constexpr uint32_t width = 64;
     constexpr uint32_t height = 32;
@@ -168,8 +167,8 @@ struct RangesCase {
     Judgement judgement;
 };
 
-// The older part of a range may be small: in [1000, 1500) it has the 24 samples below 1024. The largest ratio over six
-// seeds is 3.05.
+// The older part of a range may be small: in [1000, 1500) it has the 24 samples below 1024. Over six seeds the largest
+// ratio is 3.05.
 constexpr Judgement of_late_range{0.8, 3.2};
 
 TEST_F(StatedError, OfRangesIsThatByTheReference) {
@@ -217,8 +216,8 @@ double error_from_parts(const std::vector<Image> &samples, const PartOf &part_of
     return estimator.result().relative_rmse.estimate;
 }
 
-// The first digit of the first dimension decides whether a sample is even or odd. Each part would therefore see only
-// one half of every pixel.
+// The first digit of the first dimension tells even samples from odd ones. Each part would see only one half of every
+// pixel.
 TEST_F(StatedError, OfSobolFailsForEvenAndOddSamples) {
     constexpr uint32_t sample_count = 64;
     std::vector<Image> samples;

@@ -1,6 +1,6 @@
-// Changes the scene of one context many times and measures memory: pt_soak [scenes] (default 1000). Leak checks do not
-// find memory that is freed with the context. After a quarter of the scenes, the heap may grow by less than 32 bytes
-// per scene, the smallest block of malloc, plus four pages for the driver's threads. Otherwise the exit code is 1.
+// Changes the scene of one context many times and measures memory: pt_soak [scenes] (default 1000). Leak checks miss
+// memory that is freed with the context. After a quarter of the scenes, the heap may grow by less than 32 bytes per
+// scene, the smallest block of malloc, plus four pages for the driver's threads. If it grows more, the exit code is 1.
 #include "tests/support/image_target.h"
 #include "tests/support/scene_of.h"
 
@@ -19,7 +19,7 @@ namespace {
 
 struct Memory {
     double heap;
-    uint64_t device_bytes; // pt_stats.device_bytes
+    uint64_t device_bytes;
 };
 
 void require(bool holds, const char *what) {

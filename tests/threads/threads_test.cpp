@@ -34,7 +34,7 @@ struct Progress {
     }
 };
 
-// In short submissions.
+// With short submissions.
 pt_context *ready_context(uint64_t seed) {
     pt_create_info create{};
     create.struct_size = sizeof create;
@@ -86,7 +86,7 @@ TEST(ThreadsTest, AnotherThreadStopsACall) {
     EXPECT_EQ(result, PT_CANCELLED);
 }
 
-// The thread cancels during polls and waiting calls, and also too early or too late.
+// The thread cancels polls and waiting calls. It may also be too early or too late.
 TEST(ThreadsTest, AnyThreadCancels) {
     pt_context *const context = ready_context(0);
     ASSERT_NE(context, nullptr);
@@ -117,7 +117,7 @@ TEST(ThreadsTest, AnyThreadCancels) {
     pt_destroy(context);
 }
 
-// Two threads break the contract, but make no race: the second call is refused.
+// Two threads break the contract. The second call is refused, so there is no race.
 TEST(ThreadsTest, ASecondThreadIsRefused) {
     pt_context *const context = ready_context(0);
     ASSERT_NE(context, nullptr);
@@ -144,7 +144,7 @@ TEST(ThreadsTest, ASecondThreadIsRefused) {
     pt_destroy(context);
 }
 
-// Negative control: the callback makes a race, and the sanitizer must report it.
+// Negative control: the sanitizer must report the callback's race.
 TEST(ThreadsTest, DISABLED_ARaceInACallback) {
     int unguarded = 0;
     Progress progress;

@@ -7,12 +7,12 @@
 
 namespace pt {
 
-// An internal function's signature.
+// An internal function of libpt has this signature.
 const char *result_name(pt_result) {
     return "a name of the program's";
 }
 
-// An internal class's name.
+// An internal class of libpt has this name.
 class Error : public std::runtime_error {
 public:
     Error(pt_result code, const std::string &message);
