@@ -9,11 +9,10 @@ from scene_file import FOLDER, read_scene  # noqa: E402
 
 SIZE = (128, 64)
 SAMPLES = [16, 64, 256]
-FEWER_SAMPLES = {"thousand-spheres": [4, 16, 64]}  # slow scenes
+FEWER_SAMPLES = {"thousand-spheres": [4, 16, 64]}
 REFERENCES = ROOT / "tests/reference/bench"
 
-# Another estimator checks each reference. If a scene has large lamps, this estimator finds lamps by chance. Otherwise
-# it samples only lamps.
+# The estimator that checks each reference. It finds large lamps by chance, and samples only lamps in the other scenes.
 CHECKS = {
     "coursework": "bsdf",
     "coursework-motion": "bsdf",
@@ -42,7 +41,6 @@ def load_scene(name):
 
 
 def digest(scene):
-    """Identifies the scene of a reference."""
     text = json.dumps({key: value for key, value in scene.items() if key != "film"}, sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 

@@ -44,7 +44,6 @@ def scene_figures(rounds, unit):
 
 
 def ratio_text(figures):
-    """A ratio with two or three digits, without an exponent."""
     def text(one):
         ratio = one["ratio"]
         if ratio > 1000:

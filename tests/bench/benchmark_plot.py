@@ -2,13 +2,13 @@ import math
 
 import matplotlib
 
-matplotlib.use("Agg")  # needs no display
+matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import matplotlib.ticker  # noqa: E402
 
 COLUMNS = 4
-MOST = 100  # panels end at this multiple of the default's largest error
-# Colors are Okabe and Ito's palette (Wong 2011, "Color blindness"). Samplers have solid lines, estimators dashed lines.
+MOST = 100  # Panels end at this multiple of the default's largest error.
+# Okabe and Ito's palette (Wong 2011, "Color blindness"). Samplers have solid lines, estimators dashed ones.
 STYLES = {
     "random": ("#56B4E9", "-"),
     "halton": ("#0072B2", "-"),

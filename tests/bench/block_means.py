@@ -4,7 +4,7 @@ import math
 import statistics
 
 BLOCK = 16  # pixels
-ROUNDING = 1e-5  # relative rounding error of a mean: Mitsuba sums a pixel's samples as floats
+ROUNDING = 1e-5  # relative error of a mean: Mitsuba sums a pixel's samples as floats
 
 
 def block_means(pixels, width, height):
@@ -22,7 +22,6 @@ def whole_means(blocks):
 
 
 def mean_and_error(runs):
-    """Maps runs to the mean and standard error of each value."""
     return [(statistics.fmean(values), statistics.stdev(values) / math.sqrt(len(values))) for values in zip(*runs)]
 
 

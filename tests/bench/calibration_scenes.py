@@ -138,7 +138,6 @@ def hard_lamps(rng):
 
 
 def scenes():
-    """Returns 28 reproducible scenes by name."""
     rng = random.Random(7)
     planet = [ball((-5, 0, -40), 6, "planet"), ball((80, 40, 20), 5, "sun")]
     return {"street-24": street(rng, 12, 0.15, 60), "street-60": street(rng, 30, 0.05, 600), "windows": windows(rng),

@@ -36,11 +36,11 @@ TRUTH_SEED, SEED = 9, 100
 class Case:
     name: str
     count: int
-    relative: float  # divided by the raw image's
+    relative: float  # divided by the raw image's error
     absolute: float
-    gain: float  # mean square of the raw image's relative error, divided by the denoised image's
+    gain: float  # mean square of the raw image's relative error, divided by the same of the denoised image
     light: float
-    brighter: int  # number of values above all values of both halves in the surrounding 3x3 pixels
+    brighter: int  # number of values above all values of both halves in the 3x3 pixels around
     stated: float  # divided by the true error
     holds: bool
     is_uncertain: bool
@@ -88,7 +88,7 @@ def measured(name, count, arrays):
     denoised, error = pt.denoise(first, second, arrays["albedo"], arrays["normal"])
 
     def square(image, weight):
-        return max(float((weight * (image - truth) ** 2).mean()), 1e-30)  # 0 without noise
+        return max(float((weight * (image - truth) ** 2).mean()), 1e-30)  # positive even without noise
 
     relative, absolute = ([square(image, weight) for image in (raw, denoised)] for weight in (1 / (truth ** 2 + 0.01), 1))
     true = math.sqrt(relative[1])

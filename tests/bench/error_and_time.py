@@ -25,7 +25,7 @@ from scene_renderer import ESTIMATORS, SAMPLERS, SceneRenderer  # finds pt
 from table import print_table
 from pt import DeviceKind
 
-REFERENCE_FACTOR = 64  # if squares fall as 1 / N, the reference's error is an eighth of the smallest measured error
+REFERENCE_FACTOR = 64  # squared errors fall as 1 / N, so the reference's error is an eighth of the smallest measured one
 NOISE_MARGIN = 3
 
 
@@ -85,7 +85,7 @@ def image_error(image, reference):
 
 class Bench:
     def __init__(self, options):
-        # The program sets this too. Mesa's cache ignores vector widths, so it is disabled.
+        # As in the program. Mesa's cache is off, because it ignores vector widths.
         if "avx512vl" in pathlib.Path("/proc/cpuinfo").read_text(encoding="ascii", errors="replace"):
             os.environ.setdefault("LP_NATIVE_VECTOR_WIDTH", "512")
         os.environ.setdefault("MESA_SHADER_CACHE_DISABLE", "true")
@@ -104,8 +104,7 @@ class Bench:
         return np.array(self.renderer.image(), np.float64).reshape(*self.size[::-1], 3)
 
     def reference(self):
-        """Returns the reference and facts about it. A rendered reference has an error, from the difference of its
-        halves."""
+        """Returns the reference and facts about it. The error of a rendered reference comes from the difference of its halves."""
         if self.options.reference:
             image = read_exr(self.options.reference)
             if image.shape[1::-1] != tuple(self.size):
@@ -123,7 +122,7 @@ class Bench:
         return whole, {"spp": samples, "seed": self.options.seed, "mse": mse, "rel_mse": rel_mse}
 
     def measure(self, sampler, estimator, samples, seed, reference):
-        for warm_up in True, False:  # the second set_render discards the warm-up samples
+        for warm_up in True, False:  # The second set_render drops the samples of the warm-up.
             self.set_render(SAMPLERS[sampler], ESTIMATORS[estimator], seed)
             if warm_up:
                 self.renderer.call("pt_prepare")

@@ -2,15 +2,15 @@ import array
 import random
 
 SEED = 5
-LOW, HIGH = (-8, 0.8, -16), (8, 6, -2)  # of the cloud
+LOW, HIGH = (-8, 0.8, -16), (8, 6, -2)  # corners of the cloud
 BRIGHTNESSES = 41
-POWER = 60  # emission of one lamp of radius 0.3 that has the light of the whole cloud
+POWER = 60  # emission of a lamp of radius 0.3 with the light of the whole cloud
 MATT, DARK = {"diffuse": [0.7, 0.6, 0.5]}, {"diffuse": [0.4, 0.5, 0.6]}
 
 
 class LampCloud:
-    """Has the columns of SphereCloud. The total surface is constant. Without `shining`, only the first lamp emits,
-    so the same rays are traced without a choice among lamps."""
+    """The columns are SphereCloud's. The total surface is constant. Without `shining` only the first lamp emits, so the same rays are
+    traced without a choice among lamps."""
 
     def __init__(self, count, shining=True):
         rng = random.Random(SEED)

@@ -1,7 +1,8 @@
 """Renders clouds of spheres with Mitsuba for scale.py. Reads lines of JSON and answers each with one line.
 
-    {"count": N}                                        builds the scene and answers the seconds
+    {"count": N}                                        builds the scene, answers the seconds
     {"length": L, "samples": S, "seed": I, "image": F}  renders and answers the seconds; writes floats to F, if given
+
 """
 
 import argparse
@@ -15,7 +16,7 @@ from sphere_cloud import COLORS, MATERIALS, SphereCloud, surroundings
 
 
 class MitsubaCloud(MitsubaScene):
-    """Spheres of one color are one shape of ellipsoids, because many separate spheres render slowly."""
+    """Spheres of one color are one shape of ellipsoids, because Mitsuba renders many separate spheres slowly."""
 
     def __init__(self, variant, cloud, size, lengths):
         self.cloud = cloud

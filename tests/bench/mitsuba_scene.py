@@ -5,12 +5,11 @@ import resource
 import time
 
 SAMPLERS = ("multijitter", "independent")
-HALF_SIZE = 300  # replaces planes
+HALF_SIZE = 300  # half size of the rectangles that replace planes
 SMALLEST_LAMP = 1e-6  # (radius / distance)^2; Mitsuba makes smaller lamps too bright
 
 
 def obstacle(scene):
-    """Returns why Mitsuba cannot express a scene, or None."""
     if any(any(sphere.get("motion", [])) for sphere in scene["spheres"]):
         return "its spheres do not move"
     if any("emission" in scene["materials"][plane["material"]] for plane in scene.get("planes", [])):
@@ -62,7 +61,7 @@ class MitsubaScene:
                             for length in lengths or [scene["render"]["max_path_length"]]}
 
     def describe(self, scene):
-        """Mitsuba's surfaces have one side. Balls around the camera are inverted, and planes face the camera."""
+        """Mitsuba's surfaces have one side, so balls around the camera are inverted and planes face the camera."""
         position, shapes = scene["camera"]["position"], {}
         for i, sphere in enumerate(scene["spheres"]):
             material = scene["materials"][sphere["material"]]

@@ -8,7 +8,7 @@ import mitsuba as mi
 
 
 class Phong(mi.BSDF):
-    """A surface with one side. Parameters: diffuse and specular (rgb), glossiness (float)."""
+    """Has one side. Parameters: diffuse and specular (rgb), glossiness (float)."""
 
     def __init__(self, props):
         super().__init__(props)
@@ -22,7 +22,6 @@ class Phong(mi.BSDF):
         self.m_flags = self.m_components[0] | self.m_components[1]
 
     def lobe(self, wi, wo):
-        """max(0, w_o . r)^n."""
         cosine = dr.maximum(dr.dot(wo, mi.Vector3f(-wi.x, -wi.y, wi.z)), 0)
         return dr.power(cosine, self.glossiness)
 

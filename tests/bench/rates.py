@@ -39,7 +39,7 @@ def parse_arguments():
 
 
 class Program:
-    """Runs pt with kernel caches in a folder of this script."""
+    """Runs pt with its kernel caches in a folder of this script."""
 
     def __init__(self, options, folder):
         self.options, self.folder = options, folder

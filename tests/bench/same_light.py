@@ -3,11 +3,12 @@
     PT_LIBRARY=build/lib/libpt.so PT_PROGRAM=build/bin/pt python3 tests/bench/same_light.py [--scenes NAME ...]
         [--pairs N] [--random SEED] [--changes | --samples]
 
-Without --changes and --samples it tests N pairs of equal light for each scene and kind of pair. In a pair the second
-image may have another method or number of samples; each image has its own seed. The scenes are the benchmark's and ten
-difficult ones (lamps below a pixel, caustics, mostly black), or with --random the hundred of random_scenes.py.
+Without --changes and --samples it tests N pairs of equal light for each scene and kind of pair. Each image has its own seed. The second
+image of a pair may have another method or number of samples. The scenes are the benchmark's and ten difficult ones (lamps below a pixel,
+caustics, mostly black), or with --random the hundred of random_scenes.py.
 --changes counts the scenes that show a change of their brightest lamp, a material, a tile or a density in a kernel.
 --samples finds, by doubling, the samples of two images that show a change of a given size.
+
 """
 
 import argparse
@@ -38,7 +39,7 @@ KINDS = {"alike": {}, "light": {"estimator": pt.Estimator.LIGHT}, "bsdf": {"esti
 RATES = (0.1, 0.01, 1e-3, 1e-6)
 CHANGES = (0.005, 0.01, 0.03)
 LARGE, MANY = (96, 48), 256
-# Faults of kernels: a file, a text, and the text in its place.
+# Faults of kernels: a file, a text in it, and the text that replaces it.
 FAULTS = {"density of lamps by 3%": ("lights.glsl", "surface_of_lamp(choice.lamp)), density)",
                                      "surface_of_lamp(choice.lamp)), 1.03 * density)"),
           "density of directions by 3%": ("phong.glsl", "0.5 / PI : density)", "0.5 / PI : 1.03 * density)"),
@@ -47,8 +48,6 @@ NEEDED, MOST, WIDE = (0.01, 0.003, 0.001), 1 << 13, (256, 128)
 
 
 class Images:
-    """Images of one scene, each with its own seed."""
-
     def __init__(self, scene, seed=0, **context):
         whole = read(scene)
         self.context, self.settings, self.seed = pt.Context(**context), whole.settings, seed
@@ -71,7 +70,6 @@ def probabilities(images, fields, pairs):
 
 
 def false_alarms(scenes, pairs):
-    """The probabilities of all pairs, by kind."""
     print("scene                " + "".join(f"{kind:>12}" for kind in KINDS) + "   (least probability)")
     found = {kind: [] for kind in KINDS}
     for name, scene in scenes.items():
@@ -87,7 +85,7 @@ def false_alarms(scenes, pairs):
 
 
 def darker(scene, key, share):
-    """The scene with a change of the strongest material's key."""
+    """Returns the scene with the key of the strongest material multiplied by `share`."""
     changed = copy.deepcopy(scene)
     strongest = max(changed["materials"].values(), key=lambda each: np.sum(each.get(key, 0)))
     strongest[key] = (np.array(strongest[key]) * (1 - share)).tolist()

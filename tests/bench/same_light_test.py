@@ -1,13 +1,13 @@
-"""How often pt.compare calls equal light different: fewer pairs than in same_light.py, with fixed seeds."""
+"""Counts how often pt.compare calls equal light different. Unlike same_light.py it has few pairs and fixed seeds."""
 
 import unittest
 
 from same_light import KINDS, Images, pt, scenes_of
 
 SCENES = ["coursework", "caustic-small", "corner-ball"]
-PAIRS = 6  # of each kind
+PAIRS = 6  # pairs of each kind
 RATE = 0.05
-MOST = 14  # P(more | 90 pairs at this rate) < 10^-4
+MOST = 14  # P(more false alarms of 90 pairs at the stated rate) < 10^-4
 
 
 def blocks(image):
@@ -28,7 +28,7 @@ class SameLight(unittest.TestCase):
                     alarms += pt.compare(first, second).probability <= RATE
                     of_blocks += pt.compare(blocks(first), blocks(second)).probability <= RATE
         self.assertLessEqual(alarms, MOST)
-        self.assertGreater(of_blocks, MOST)  # negative control
+        self.assertGreater(of_blocks, MOST)  # Negative control.
 
 
 if __name__ == "__main__":

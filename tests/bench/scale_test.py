@@ -55,7 +55,6 @@ class Clouds(unittest.TestCase):
 
 class RealDevice(unittest.TestCase):
     def run_scale(self, *arguments):
-        """Returns the report and the output."""
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "scale.json"
             done = subprocess.run([sys.executable, "-B", FOLDER / "scale.py", "--library", f"one={LIBRARY}", "--size",

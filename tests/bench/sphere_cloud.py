@@ -17,8 +17,8 @@ def surroundings():
 
 
 class SphereCloud:
-    """Columns: centers x, y, z and radii as float, materials as indices into MATERIALS. Some neighbors overlap. The
-    filled fraction of space does not depend on the count."""
+    """Columns: centers x, y, z and radii are floats, materials are indices into MATERIALS. Some neighbors overlap. The filled fraction of
+    space does not depend on the count."""
 
     def __init__(self, count):
         uniform = random.Random(SEED).uniform

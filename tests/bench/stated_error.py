@@ -29,8 +29,8 @@ from calibration_scenes import scenes as calibration_scenes  # noqa: E402
 from relative_error import relative_square  # noqa: E402
 from scene_file import FOLDER, read_scene  # noqa: E402
 
-MOST_TRUTH = 1 << 17  # samples
-REFERENCE_SHARE = 0.2  # limit for the reference's error, divided by the picture's
+MOST_TRUTH = 1 << 17
+REFERENCE_SHARE = 0.2  # limit for the reference's error, divided by the picture's error
 FIRST_SEED, FIRST_TARGET_SEED = 100, 200
 RELATIVE_BITS = pt.Uncertain.RELATIVE_RMSE | pt.Uncertain.UNSEEN | pt.Uncertain.UNMET
 
@@ -60,8 +60,8 @@ class Stopped:
     target: float
     reached: bool
     own: float
-    brightness: float  # divided by the reference's
-    samples: float  # mean
+    brightness: float  # divided by the reference's brightness
+    samples: float  # mean number of samples
 
 
 @dataclass
@@ -85,7 +85,7 @@ def read(scene):
 
 
 def short(values):
-    """Rounds floats >= 0 to 16 bits, 8 of them for the exponent. The relative error is at most 2^-9."""
+    """Rounds floats >= 0 to 16 bits, of which 8 are the exponent. The relative error is at most 2^-9."""
     return ((numpy.asarray(values, numpy.float32).view(numpy.uint32) + (1 << 14)) >> 15).astype(numpy.uint16)
 
 
