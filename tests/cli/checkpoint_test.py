@@ -12,14 +12,14 @@ import time
 from command_line import COURSEWORK, PATIENCE, PT, SCENES, CommandLineTest, default_signals
 
 KILLS = int(os.environ.get("PT_TEST_KILLS", "4"))
-MOST_DELAY = 0.7
+MOST_DELAY = 0.3
 SAMPLES_A_KILL = 2000
 
 
 class KeptRender(CommandLineTest):
     program = PT
 
-    def options(self, spp, size="64x32"):
+    def options(self, spp, size="32x16"):
         return ["render", COURSEWORK, "--spp", str(spp), "--size", size, "-o", "a.png", "--film", "a.ptfilm", "-q"]
 
     def whole(self, *options):

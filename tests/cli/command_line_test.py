@@ -17,10 +17,14 @@ class Usage(CommandLineTest):
             self.assertIn(text, self.output)
 
     def test_wrong_values(self):
-        for option, value in (("--size", "12"), ("--size", "1e9x1"), ("--size", "-1x5"), ("--size", ""), ("--spp", "many"),
-                              ("--sampler", "sobl"), ("--exposure", "nan"), ("--exposure", "Auto"), ("--progress", "loud")):
+        for option, value, error in (
+                ("--size", "12", "--size"), ("--size", "1e9x1", "--size"), ("--size", "-1x5", "--size"), ("--size", "", "--size"),
+                ("--spp", "many", "--spp"), ("--sampler", "sobl", "--sampler"), ("--exposure", "nan", "--exposure"),
+                ("--exposure", "Auto", "--exposure"), ("--progress", "loud", "--progress"), ("--gamma", "-3", ", is -3 (see"),
+                ("--gamma", "0.05", ", is 0.05 (see"), ("--spp", "-3", ", is -3 (see"), ("--exposure", "100", ", is 100 (see"),
+                ("--size", "65501x1", "65500"), ("--sampling", "adaptive", "pt: --sampling adaptive: needs --error")):
             with self.subTest(option=option, value=value):
-                self.expect(2, "render", COURSEWORK, "-o", "a.png", option, value, error=option)
+                self.expect(2, "render", COURSEWORK, "-o", "a.jpg", option, value, error=error)
         self.assertEqual(self.files(), [])
 
     def test_misspelt_names_get_a_suggestion(self):
@@ -43,28 +47,16 @@ class Usage(CommandLineTest):
                 self.expect(2, *arguments, error=error)
         self.assertEqual(self.files(), [])
 
-    def test_numbers_are_shown_as_they_were_given(self):
-        for option, value in ("--gamma", "-3"), ("--gamma", "0.05"), ("--spp", "-3"), ("--exposure", "100"):
-            self.expect(2, "render", COURSEWORK, "-o", "a.png", option, value, error=f", is {value} (see")
-
-    def test_samples_by_the_error_need_one(self):
-        arguments = ["render", COURSEWORK, "-o", "a.png", "--size", "2x2", "--spp", "20", "--sampling"]
-        self.expect(2, *arguments, "adaptive", error="pt: --sampling adaptive: needs --error")
-        self.assertEqual(self.files(), [])
-        for sampling in "adaptive", "uniform", "best":
-            self.expect(0, *arguments, sampling, "--error", "50%")
-        self.expect(0, *arguments, "uniform")
-
-    def test_a_format_too_small_for_the_picture(self):
-        self.expect(2, "render", COURSEWORK, "-o", "a.jpg", "--size", "65501x1", error="65500")
-        self.assertEqual(self.files(), [])
+    def test_kinds_of_sampling(self):
+        for sampling in ("adaptive", "--error", "50%"), ("uniform", "--error", "50%"), ("best", "--error", "50%"), ("uniform",):
+            self.expect(0, "render", COURSEWORK, "-o", "a.png", "--size", "2x2", "--spp", "20", "--sampling", *sampling)
 
     def test_failing_allocations_end_the_program(self):
         codes = []
-        for number in range(1, 3000, 61):
+        for number in range(1, 3000, 173):
             codes.append(self.run_pt("render", COURSEWORK, "-o", "a.png", "--gamma", "0", FAKE_PT_ALLOCATION=number))
             self.assertRegex(self.errors, {1: r"\Apt: out of memory(, or an internal error)?\n\Z", 2: "--gamma"}[codes[-1]])
-        self.assertGreater(codes.count(1), 20)
+        self.assertGreater(codes.count(1), 7)
         self.assertEqual(self.files(), [])
 
 
@@ -93,21 +85,15 @@ class SceneErrors(CommandLineTest):
             self.assertLess(len(self.errors), 2100)
 
 
-class DeviceErrors(CommandLineTest):
-    def test_validation_messages_fail_the_run(self):
-        for function in ("set_scene", "destroy"):
-            self.expect(1, "render", COURSEWORK, "-o", "a.png", "--validation", "-q", FAKE_PT_LOG=function,
-                        error="pt: validation: a message of the layer")
-            self.expect(0, "render", COURSEWORK, "-o", "a.png", "-q", FAKE_PT_LOG=function)
+class Devices(CommandLineTest):
 
-    def test_devices(self):
+    def test_they_are_listed(self):
         self.expect(0, "devices")
         self.assertIn("fake device", self.output)
         self.expect(0, "devices", "--json")
         device, = json.loads(self.output)
         self.assertEqual((device["index"], device["kind"], device["suitable"]), (0, "CPU", True))
         self.assertEqual(device["uuid"], "00112233-4455-6677-8899-aabbccddeeff")
-        self.expect(4, "devices", FAKE_PT_FAIL=f"devices:{RESULT['NO_DEVICE']}", error="no Vulkan device")
         self.assertEqual(self.run_pt("devices", FAKE_PT_FAIL="suitable:-1"), 4)
         self.assertIn("no: it is not real", self.output)
 
@@ -247,11 +233,6 @@ class RealDevice(CommandLineTest):
         self.expect(0, "render", "b.json", *arguments, "b.png", "--set", "materials.l.emission=0.25", "--set=spheres[0].radius=3")
         self.assertEqual(read_png(self.path("a.png")), read_png(self.path("b.png")))
 
-    def test_an_empty_scene_is_black(self):
-        self.write("s.json", "{}")
-        self.expect(0, "render", "s.json", "-o", "a.png", "--size", "3x2", "--spp", "1")
-        self.assertEqual(read_png(self.path("a.png"))[2], [[0] * 9] * 2)
-
 
 class Warnings(CommandLineTest):
     def warnings(self, *options, scene="s.json", **environment):
@@ -272,8 +253,3 @@ class Warnings(CommandLineTest):
         self.assertEqual(self.warnings("--error", "2", "--spp", "16", scene=COURSEWORK, FAKE_PT_FAIL="rejected:-1"),
                          ["--error: the target is 200%; two percent are written 2% or 0.02",
                           "3 samples (0.586%) left out: not finite, negative or too bright"])
-
-    def test_an_error_comes_without(self):
-        self.write("s.json", "{}")
-        self.expect(3, "render", "s.json", "-o", "a.png", FAKE_PT_FAIL="set_scene:-2", FAKE_PT_MESSAGE="a rule")
-        self.assertNotIn("warning", self.errors)

@@ -38,6 +38,11 @@ class Compare(CommandLineTest):
         figures = self.figures("r.exr", "r.exr")
         self.assertEqual((figures["mse"], figures["relative_mse"], figures["maximum"]), (0, 0, 0))
         self.assertEqual(self.output, "mse           0\nrelative_mse  0\nmaximum       0\n")
+        self.assertEqual(self.figures("a.exr", "r.exr", "--layer", "R")["maximum"], 0)
+        self.assertEqual(self.figures("a.exr", "r.exr", "--layer", "B")["mse"], 1)
+        self.expect(0, "compare", "r.exr", "r.exr", "--json", "-")
+        self.assertEqual(json.loads(self.output)["mse"], 0)
+        self.assertIn("pt: mse", self.errors)
 
     def test_pictures_are_compared_as_displays_take_them(self):
         def signal(light):
@@ -88,15 +93,6 @@ class Compare(CommandLineTest):
                 before = self.files()
                 self.expect(code, "compare", *arguments, error=error)
                 self.assertEqual(self.files(), before)
-
-    def test_a_layer_of_one_channel(self):
-        self.assertEqual(self.figures("a.exr", "r.exr", "--layer", "R")["maximum"], 0)
-        self.assertEqual(self.figures("a.exr", "r.exr", "--layer", "B")["mse"], 1)
-
-    def test_figures_to_standard_output(self):
-        self.expect(0, "compare", "r.exr", "r.exr", "--json", "-")
-        self.assertEqual(json.loads(self.output)["mse"], 0)
-        self.assertIn("pt: mse", self.errors)
 
 
 class RealDevice(CommandLineTest):

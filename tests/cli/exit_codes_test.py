@@ -15,7 +15,7 @@ def fails(name, result):
     return {"FAKE_PT_FAIL": f"{name}:{RESULT[result]}", "FAKE_PT_MESSAGE": "the reason"}
 
 
-# Each row has the exit code, command line, environment, start of the message, and remaining files.
+# Each row has the exit code, command line, environment, start of the message, and written files.
 CASES = [
     *((code, RENDER, fails(function, result), "pt: the reason", []) for function, result, code in (
         ("create", "UNSUPPORTED", 4), ("create", "INVALID_ARGUMENT", 2), ("create", "OUT_OF_HOST_MEMORY", 1),
@@ -27,7 +27,13 @@ CASES = [
     (0, ["--version"], {}, "", []),
     (0, ["devices"], {}, "", []),
     (0, ["merge", "first.ptfilm", "second.ptfilm", "--film", "sum.ptfilm"], {}, "", ["sum.ptfilm"]),
-    (1, [*RENDER, "--validation"], {"FAKE_PT_LOG": "accumulate"}, "pt: validation: a message of the layer", ["a.png"]),
+    *((1, [*RENDER, "--validation"], {"FAKE_PT_LOG": function}, "pt: validation: a message of the layer", ["a.png"])
+      for function in ("set_scene", "accumulate", "destroy")),
+    (0, RENDER, {"FAKE_PT_LOG": "set_scene"}, "", ["a.png"]),
+    (1, [*RENDER, "--validation"], {"FAKE_PT_LOG": "destroy", "FAKE_PT_SIGNAL": "2:5"}, "pt: stopped by SIGINT", ["a.png"]),
+    *((code, ["selftest", "--json", "s.json"], fails(function, result), "pt: the reason", []) for function, result, code in (
+        ("create", "NO_DEVICE", 4), ("accuracy", "SHADER", 4), ("accumulate", "DEVICE_LOST", 5), ("readback", "INTERNAL", 1))),
+    (6, ["selftest", "--json", "none/s.json"], {}, "pt: cannot write none/s.json", []),
     (1, ["selftest"], {"FAKE_PT_FAIL": "accuracy_bound:1"}, "", []),
     (2, [], {}, "pt: a command is missing: render, tonemap, ", []),
     (2, ["rendr"], {}, 'pt: unknown command "rendr", did you mean "render"? (see pt --help)', []),
@@ -37,6 +43,7 @@ CASES = [
     (2, [*RENDER, "--skip-existing"], {}, "pt: --skip-existing requires --frames", []),
     (3, [*RENDER[:3], "a-#.png", "--frames", "1-2"], {}, f"pt: {COURSEWORK}: has no animation", []),
     (3, ["render", "broken.json", "-o", "a.png"], {}, "pt: broken.json:", []),
+    (3, ["render", "empty.json", "-o", "a.png"], fails("set_scene", "INVALID_SCENE"), "pt: empty.json: the reason", []),
     (4, RENDER, fails("set_scene", "UNSUPPORTED"), f"pt: {COURSEWORK}: the reason", []),
     (4, ["devices"], {"FAKE_PT_FAIL": f"devices:{RESULT['NO_DEVICE']}"}, "pt: no Vulkan device", []),
     (5, RENDER, fails("set_camera", "DEVICE_LOST"), f"pt: {COURSEWORK}: the reason", []),
@@ -53,6 +60,9 @@ CASES = [
     (129, RENDER, {"FAKE_PT_SIGNAL": "1:5"}, "pt: stopped by SIGHUP after 1 of 4 samples", ["a.png"]),
     (130, RENDER, {"FAKE_PT_SIGNAL": "2:5"}, "pt: stopped by SIGINT after 1 of 4 samples", ["a.png"]),
     (143, RENDER, {"FAKE_PT_SIGNAL": "15:5"}, "pt: stopped by SIGTERM after 1 of 4 samples", ["a.png"]),
+    (130, RENDER, {"FAKE_PT_SIGNAL": "2:3"}, "pt: stopped by SIGINT after 0 of 4 samples per pixel; nothing was written\n", []),
+    (143, RENDER, {"FAKE_PT_FAIL": "set_camera:-10", "FAKE_PT_SCENE_SIGNAL": "15"},  # it fails unless the signal comes first
+     "pt: stopped by SIGTERM after 0 of 4 samples per pixel; nothing was written\n", []),
 ]
 
 
@@ -60,6 +70,7 @@ class ExitCodes(CommandLineTest):
     def setUp(self):
         super().setUp()
         self.write("broken.json", "{")
+        self.write("empty.json", "{}")
         self.program = PT
         small = ["--size", "4x2", "--spp", "4"]
         for name, first in ("first", "0"), ("second", "4"):
@@ -74,8 +85,10 @@ class ExitCodes(CommandLineTest):
             with self.subTest(code=code, arguments=arguments):
                 for name in set(self.files()) - set(given):
                     os.remove(self.path(name))
+                self.write("a.png", "old")
                 self.program = PT if arguments[:1] in (["merge"], ["compare"]) else FAKE_PT
                 self.assertEqual(self.run_pt(*arguments, **environment), code, self.errors)
                 self.assertTrue(self.errors.startswith(said), self.errors)
-                found = [name for name in self.files() if name not in given]
-                self.assertEqual(found, left)
+                if self.contents("a.png") == b"old":  # and nothing else is left
+                    os.remove(self.path("a.png"))
+                self.assertEqual([name for name in self.files() if name not in given], left)

@@ -45,14 +45,6 @@ class ExitCodes(CommandLineTest):
                 for name in self.files():
                     os.remove(self.path(name))
 
-    def test_signals(self):
-        for options in ("--checkpoint", "c.ptfilm"), ("--time", "1e6"):
-            with self.subTest(options=options):
-                found = self.run_pt("render", COURSEWORK, "-o", "a.png", "--spp", "200", "--size", "2x2", *options,
-                                    FAKE_PT_SIGNAL=f"{int(signal.SIGINT)}:9")
-                self.assertEqual(found, 130, self.errors)
-                self.assertEqual("; --resume continues from c.ptfilm" in self.errors, options[0] == "--checkpoint")
-
     def test_a_signal_that_comes_twice_at_once_is_one(self):
         """timeout(1) signals both the process and its group."""
         process = self.start("render", COURSEWORK, "-o", "a.png", "--spp", "1000000", "--size", "2x2", "--progress",
@@ -195,15 +187,6 @@ class TargetError(CommandLineTest):
             self.assertEqual(fractions.count(1.0), 1)
             self.assertGreater(len(fractions), 1)
             self.assertEqual((lines[-1]["fraction"], lines[-1]["samples_per_pixel"]), (1.0, samples))
-
-    def test_interrupted(self):
-        submission = 4 * 17 + 1  # after the first call
-        code = self.run_pt("render", COURSEWORK, "-o", "a.png", "--size", "2x2", "--error", "0.1%", "--stats", "s.json",
-                           FAKE_PT_SIGNAL=f"{int(signal.SIGINT)}:{submission}")
-        self.assertEqual(code, 130, self.errors)
-        self.assertEqual(self.errors, "pt: stopped by SIGINT after 17 of 65536 samples per pixel\n")
-        stats = json.loads(self.read("s.json"))
-        self.assertEqual((stats["target_reached"], stats["spp"]), (False, 17))
 
 
 class RealDeviceError(CommandLineTest):
