@@ -185,11 +185,11 @@ class Resume(CommandLineTest):
         crop = ["--checkpoint", "crop.ptfilm", "--crop"]
         self.expect(0, *self.small, "-o", "half.png", "--spp", "12", *crop, "2,3,5,4")
         for part in "2,3,5,4", "0,3,16,4":
-            self.expect(0, *self.small, "-o", "a.exr", "--spp", "24", "--crop", part)
-            self.expect(0, *self.small, "-o", "b.exr", "--spp", "24", *crop, part, "--resume")
-            self.assertEqual(self.contents("b.exr"), self.contents("a.exr"))
-        self.expect(2, *self.small, "-o", "c.exr", "--spp", "24", *crop, "2,2,5,4", "--resume", error="crop.ptfilm: ")
-        self.assertNotIn("c.exr", self.files())
+            self.expect(0, *self.small, "-o", "a.png", "--spp", "24", "--crop", part)
+            self.expect(0, *self.small, "-o", "b.png", "--spp", "24", *crop, part, "--resume")
+            self.assertEqual(self.contents("b.png"), self.contents("a.png"))
+        self.expect(2, *self.small, "-o", "c.png", "--spp", "24", *crop, "2,2,5,4", "--resume", error="crop.ptfilm: ")
+        self.assertNotIn("c.png", self.files())
 
     def test_what_differs_is_said(self):
         for options, error in ((("--seed", "7"), "c.ptfilm: seed = 0: must be 7"),

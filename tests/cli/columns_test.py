@@ -1,7 +1,7 @@
 import json
 import os
 
-from command_line import PT, CommandLineTest, npy, read_exr_channels
+from command_line import PT, CommandLineTest, npy, read_png
 
 CENTERS = [0.0, 0.5, -5.0, 1.25, 0.5, -6.0, -1.0, 0.25, -4.0]
 RADII = [0.5, 1.0, 0.25]
@@ -77,9 +77,9 @@ class Refusals(ColumnsTest):
 class RealDevice(ColumnsTest):
     program = PT
 
-    def radiance(self):
-        self.expect(0, "render", "s.json", "-o", "a.exr", "--size", "24x16", "--spp", "4", "-q")
-        return read_exr_channels(self.path("a.exr"))
+    def picture(self):
+        self.expect(0, "render", "s.json", "-o", "a.png", "--size", "24x16", "--spp", "4", "-q")
+        return read_png(self.path("a.png"))[2]
 
     def test_columns_are_the_spheres_that_they_list(self):
         def linear(byte):
@@ -90,8 +90,8 @@ class RealDevice(ColumnsTest):
         singles = [{"center": CENTERS[3 * i:3 * i + 3], "radius": RADII[i], "material": "a", "motion": motion,
                     "color": [linear(byte) for byte in COLORS[3 * i:3 * i + 3]]} for i in range(3)]
         self.scene(*singles)
-        expected = self.radiance()
-        self.assertGreater(len({value for line in expected["R"] for value in line}), 10)
+        expected = self.picture()
+        self.assertGreater(len({value for line in expected for value in line}), 30)
         self.files_of()
         for float_type, version in (("<f4", 1), ("<f8", 2)):
             self.write("c.npy", npy(float_type, (3, 3), CENTERS, version))
@@ -99,27 +99,24 @@ class RealDevice(ColumnsTest):
             self.write("m.npy", npy(float_type, (3, 3), motion * 3, version))
             for moved in "m.npy", motion:
                 self.scene({"center": "c.npy", "radius": "r.npy", "material": "a", "motion": moved, "color": "k.npy"})
-                found = self.radiance()
-                for name, lines in expected.items():
-                    for line, other in zip(lines, found[name]):
-                        for a, b in zip(line, other):
-                            # The library decodes sRGB to float32. One ulp of a color changes the light by one ulp.
-                            self.assertLessEqual(abs(a - b), 2**-20 * abs(a))
+                # The library decodes sRGB to float32. One ulp of a color changes the light by one ulp.
+                for line, other in zip(expected, self.picture()):
+                    self.assertLessEqual(max(abs(a - b) for a, b in zip(line, other)), 1)
 
     def test_columns_are_the_capsules_that_they_list(self):
         ends = [0.5, 0.5, -4.0, 1.25, -0.5, -6.5, -1.0, 0.75, -4.0]
         singles = [{"center": CENTERS[3 * i:3 * i + 3], "end": ends[3 * i:3 * i + 3], "radius": 0.5 * RADII[i],
                     "material": "a", "color": [1, 0.5, 0.25]} for i in range(3)]
         self.scene(capsules=singles)
-        expected = self.radiance()
+        expected = self.picture()
         self.scene(*[{key: one[key] for key in one if key != "end"} for one in singles])
-        self.assertNotEqual(self.radiance(), expected)
+        self.assertNotEqual(self.picture(), expected)
         self.files_of()
         self.write("e.npy", npy("<f4", (3, 3), ends))
         self.write("r.npy", npy("<f8", (3,), [0.5 * radius for radius in RADII]))
         columns = {"center": "c.npy", "end": "e.npy", "radius": "r.npy", "material": "a", "color": [1, 0.5, 0.25]}
         self.scene(capsules=[columns])
-        self.assertEqual(self.radiance(), expected)
+        self.assertEqual(self.picture(), expected)
         self.write("e.npy", npy("<f4", (3, 3), [float("inf")] + ends[1:]))
         self.expect(3, "render", "s.json", "-o", "a.png", error=": capsules[0].end[0] = (inf, 0.5, -4): must be finite")
         self.scene(capsules=[{**singles[0], "material": "sky"}])
@@ -135,14 +132,14 @@ class RealDevice(ColumnsTest):
         opacities = [0.5, 1, 0.25]
         self.scene(*[{"center": CENTERS[3 * i:3 * i + 3], "radius": RADII[i], "material": "a", "opacity": opacities[i]}
                      for i in range(3)])
-        expected = self.radiance()
+        expected = self.picture()
         self.files_of()
         self.write("o.npy", npy("<f8", (3,), opacities))
         columns = {"center": "c.npy", "radius": "r.npy", "material": "a"}
         self.scene({**columns, "opacity": "o.npy"})
-        self.assertEqual(self.radiance(), expected)
+        self.assertEqual(self.picture(), expected)
         self.scene(columns)
-        self.assertNotEqual(self.radiance(), expected)
+        self.assertNotEqual(self.picture(), expected)
         self.scene({**columns, "opacity": 0.5, "material": "sky"})
         self.expect(3, "render", "s.json", "-o", "a.png", error='spheres[1].material = "sky": must be of a material that neither')
         self.scene({**columns, "opacity": 1.5})

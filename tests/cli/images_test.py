@@ -82,9 +82,9 @@ class Crop(ImagesTest):
 
 class StandardOutput(ImagesTest):
     def test_it_gets_what_a_file_would(self):
+        self.render("-o", "a.exr", "-o", "a.png", "-o", "a.jpg")
         for name in "exr", "png", "jpg":
             with self.subTest(format=name):
-                self.render("-o", f"a.{name}")
                 done = self.piped("render", COURSEWORK, *SIZE, "--spp", "2", "-o", "-", "--format", name)
                 self.assertEqual((done.returncode, done.stdout), (0, self.contents(f"a.{name}")), done.stderr)
                 self.assertIn(b"pt: wrote standard output: 9x7, 2 spp", done.stderr)

