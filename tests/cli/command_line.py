@@ -1,4 +1,5 @@
-"""Runs the program in an empty folder. Most cases use fake_library.cpp, which needs no device. Classes named RealDevice use the real libpt."""
+"""Runs the program in an empty folder. Most cases use fake_library.cpp, which needs no device. Classes named
+RealDevice use the real libpt."""
 
 import os
 import pathlib
@@ -87,6 +88,14 @@ class CommandLineTest(unittest.TestCase):
                 self.assertTrue(line.startswith("pt: "), line)
         if error is not None:
             self.assertIn(error, self.errors)
+
+    def expect_refusals(self, command, rows):
+        """Rows have exit code, arguments, and a part of the error. No file may be written."""
+        before = self.files()
+        for code, arguments, error in rows:
+            with self.subTest(arguments=arguments):
+                self.expect(code, command, *arguments, error=error)
+        self.assertEqual(self.files(), before)
 
     def files(self):
         return sorted(os.listdir(self.folder))

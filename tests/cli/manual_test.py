@@ -91,18 +91,22 @@ class RealDevice(CommandLineTest):
         with open(os.path.join(SCENES, "first.json"), encoding="utf-8") as shipped:
             self.assertEqual(example, shipped.read())
 
+    def run_small(self, words, size="32x16"):
+        """Runs a page's command with a smaller picture. Returns the files that it names."""
+        if "--watch" in words:
+            return set()
+        if "--size" in words:
+            words = [size if option == "--size" else word for option, word in zip(["", *words], words)]
+        self.expect(0, *words, *(["--size", size] if words[0] == "render" and "--size" not in words else []))
+        return {name.replace("##", "47") for option, name in zip(words, words[1:]) if option in ("-o", "--film")}
+
     def test_commands_of_the_manual_run(self):
         commands = commands_of(MANUAL)
         self.assertGreater(len(commands), 5)
         for command in commands:
-            smaller = ["--size", "96x48"] if command[1] == "render" and "--size" not in command else []
             words = command[1:command.index(">")] if ">" in command else command[1:]
-            if command[1] == "denoise":
-                words += ["--denoise", os.environ["OPEN_IMAGE_DENOISE"]]
-            if "--watch" not in command:
-                self.expect(0, *words, *smaller)
-        for name in "picture.png", "picture.exr", "figures.json", "darker.jpg":
-            self.assertIn(name, self.files())
+            self.run_small(words + (["--denoise", os.environ["OPEN_IMAGE_DENOISE"]] if command[1] == "denoise" else []))
+        self.assertLessEqual({"picture.png", "picture.exr", "figures.json", "darker.jpg"}, set(self.files()))
 
     def test_recipes_run(self):
         frames, = re.findall(r'```\n( +"animation": .*?)```', MANUAL, re.DOTALL)
@@ -111,12 +115,8 @@ class RealDevice(CommandLineTest):
             commands = commands_of(file.read())
         self.assertGreater(len(commands), 8)
         for command in commands:
-            smaller = {"--size": "48x24", "--frames": "47"}
-            words = [smaller.get(option, word) for option, word in zip(command, command[1:])]
-            missing = ["--size", "48x24"] if command[1] == "render" and "--size" not in command else []
-            self.expect(0, *words, *missing)
-            written = [name for option, name in zip(command, command[1:]) if option in ("-o", "--film")]
-            self.assertLessEqual({name.replace("##", "47") for name in written}, set(self.files()))
+            written = self.run_small(["47" if option == "--frames" else word for option, word in zip(command, command[1:])])
+            self.assertLessEqual(written, set(self.files()))
 
     def test_the_first_scene_of_the_readme(self):
         with open(os.path.join(SCENES, "..", "..", "README.md"), encoding="utf-8") as file:
@@ -126,10 +126,9 @@ class RealDevice(CommandLineTest):
         commands = re.findall(r"^build/bin/pt (render ball.json .*?)(?: +#.*)?$", readme, re.MULTILINE)
         self.assertEqual(len(commands), 3)
         for command in commands:
-            if "--watch" not in command:
-                self.expect(0, *command.split(), "--size", "48x24")
-                self.assertEqual(self.errors, "")
-        self.assertRegex(self.output, r"^wrote ball.png: 48x24, .*\nexposure .* \(auto\)\nerror .*; target reached")
+            self.run_small(command.split())
+            self.assertEqual(self.errors, "")
+        self.assertRegex(self.output, r"^wrote ball.png: 32x16, .*\nexposure .* \(auto\)\nerror .*; target reached")
 
     def test_the_tour_of_the_readme(self):
         root = os.path.join(SCENES, "..", "..")
@@ -143,9 +142,7 @@ class RealDevice(CommandLineTest):
             self.assertTrue(os.path.exists(os.path.join(root, picture)), picture)
             commands = re.findall(r"`build/bin/pt ([^`]+)`", row)
             for command in commands:
-                words = re.sub(r"--size \d+x\d+", "--size 32x16", command).split()
-                size = ["--size", "32x16"] if words[0] == "render" and "--size" not in words else []
-                self.expect(0, *words, *size)
+                self.run_small(command.split())
                 for line in self.errors.splitlines():
                     self.assertRegex(line, "materials.*: diffuse . specular = |there is no checkpoint yet")
             self.assertIn(os.path.basename(picture), commands[-1].split())

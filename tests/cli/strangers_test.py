@@ -150,6 +150,6 @@ class Compiler(CommandLineTest):
                 compiling = "libpt-glsl.so" in maps.read()
             time.sleep(0.01)
         process.send_signal(signal.SIGTERM)
-        process.communicate(timeout=60)
+        process.communicate(timeout=600)
         self.assertEqual(process.returncode, -signal.SIGTERM)
         self.assertEqual(self.files(), ["s.json", "shaders"])

@@ -35,6 +35,11 @@ ENDLESS = 10**8
 
 
 class Command(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.cluster = cls.enterClassContext(distributed.LocalCluster(
+            n_workers=1, threads_per_worker=1, dashboard_address=None, host="127.0.0.1", silence_logs=50))
+
     def setUp(self):
         self.enterContext(contextlib.chdir(self.enterContext(tempfile.TemporaryDirectory())))
         with open("scene.json", "w") as file:
@@ -51,10 +56,10 @@ class Command(unittest.TestCase):
         return ended.exception.code, said.getvalue()
 
     def farm(self, *words, code=0):
-        done = subprocess.run([sys.executable, "-m", "pt.farm._command", "render", "scene.json", *words],
-                              stderr=subprocess.PIPE, text=True)
-        self.assertEqual(done.returncode, code, done.stderr)
-        return done.stderr
+        """Uses one worker of this class for all tests, because Dask takes seconds to start."""
+        found, said = self.refused(*words, "--scheduler", self.cluster.scheduler_address)
+        self.assertEqual(found, code, said)
+        return said
 
     def pt(self, *words, code=0):
         self.assertEqual(subprocess.run([PT, *words, "-q"]).returncode, code)
@@ -90,7 +95,7 @@ class Command(unittest.TestCase):
 
     def test_pictures_and_film(self):
         self.farm("-o", "a.exr", "-o", "a.png", "--film", "a.ptfilm", "--layers", "standard-error", "--spp", "40",
-                  "--local-workers", "1", "-q", "--set", "film.exposure=-1", "--tonemap", "agx", "--gamma", "2")
+                  "-q", "--set", "film.exposure=-1", "--tonemap", "agx", "--gamma", "2")
         self.pt("render", "scene.json", "-o", "b.exr", "-o", "b.png", "--layers", "standard-error", "--spp", "40",
                 "--set", "film.exposure=-1", "--tonemap", "agx", "--gamma", "2")
         for one, other in (("a.exr", "b.exr"), ("a.png", "b.png")):
@@ -112,22 +117,22 @@ class Command(unittest.TestCase):
     def test_columns_go_to_the_workers(self):
         np.save("c.npy", np.array([[0, 1, 0], [1, 1, 0]], np.float32))
         words = ["--set", 'spheres[1].center="c.npy"', "--size", "16x8", "--spp", "2"]
-        self.farm("-o", "a.exr", *words, "--local-workers", "1", "-q")
+        self.farm("-o", "a.exr", *words, "-q")
         self.pt("render", "scene.json", "-o", "b.exr", *words)
         self.same("a.exr", "b.exr")
 
     def test_what_workers_refuse(self):
-        said = self.farm("-o", "a.exr", "--set", "spheres[1].radius=-1", "--local-workers", "1", "-q", code=2)
+        said = self.farm("-o", "a.exr", "--set", "spheres[1].radius=-1", "-q", code=2)
         self.assertRegex(said, r"pt-farm: spheres\[1\].radius=-1: spheres\[1\].radius = -1: must be > 0")
 
     def test_target_errors(self):
-        said = self.farm("-o", "a.exr", "--spp", "20", "--error", "0.01%", "--local-workers", "1", code=7)
+        said = self.farm("-o", "a.exr", "--spp", "20", "--error", "0.01%", code=7)
         self.assertRegex(said, r"spp, error \d.*, 1 workers")
         self.pt("render", "scene.json", "-o", "b.exr", "--spp", "20", "--error", "0.01%", code=7)
         self.same("a.exr", "b.exr")
 
     def test_frames_go_on(self):
-        words = ["-o", "f-##.exr", "--frames", "0-2", "--spp", "8", "--local-workers", "1", "-q"]
+        words = ["-o", "f-##.exr", "--frames", "0-2", "--spp", "8", "-q"]
         self.farm(*words)
         self.pt("render", "scene.json", "-o", "g-##.exr", "--frames", "0-2", "--spp", "8")
         for frame in range(3):
@@ -157,12 +162,11 @@ class Command(unittest.TestCase):
         self.assertEqual(code, 2)
         self.assertEqual(said, "pt-farm: --checkpoint k.ptfilm: exists; continue from it by --resume\n")
         samples = max(tile.samples[-1].stop for tile in pt.Film.load("k.ptfilm").tiles) + 3
-        said = self.farm("-o", "b.exr", "--seed", "7", "--spp", str(samples), "--resume", *words, code=2)
+        said = self.farm("-o", "b.exr", "--seed", "7", "--spp", str(samples), "--resume", *words[:2], code=2)
         self.assertIn("the checkpoint is of another picture: its seed differs", said)
-        self.farm("-o", "b.exr", "--spp", str(samples), "--resume", *words)
+        self.farm("-o", "b.exr", "--spp", str(samples), "--resume", *words[:2])
         self.pt("render", "scene.json", "-o", "c.exr", "--spp", str(samples))
         self.same("b.exr", "c.exr")
-
 
     def test_options_reach_the_farm(self):
         class Reached(Exception):

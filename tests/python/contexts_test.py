@@ -81,7 +81,7 @@ class Processes(unittest.TestCase):
         context.accumulate(1)
         child = os.fork()
         if child == 0:
-            signal.alarm(60)
+            signal.alarm(600)
             status = 1
             try:
                 context.stats()
@@ -100,7 +100,7 @@ class Threads(unittest.TestCase):
     def test_contexts_are_independent(self):
         with pt.Context() as context:
             expected = ready(context).render(SCENE, CAMERA, settings(), 8).radiance
-        both_inside = threading.Barrier(2, timeout=60)
+        both_inside = threading.Barrier(2, timeout=600)
 
         def render(_):
             waited = []

@@ -101,37 +101,23 @@ class RealErrors(unittest.TestCase):
         self.assertEqual(raised.exception.broken_rules[0],
                          pt.BrokenRule("spheres", 1, "center", 1, "", "nan", "must be finite"))
 
-    def test_of_settings(self):
-        with self.assertRaisesRegex(pt.InvalidArgumentError, "^render.width = 0: must be >= 1$") as raised:
-            self.context.set_render(pt.RenderSettings(0, 4))
-        self.assertEqual(raised.exception.broken_rules[0].index, None)
-        for fields in {"seed": -1}, {"seed": 2**64}, {"width": 2**32 + 8}:
-            with self.assertRaisesRegex(ValueError, f"render.{list(fields)[0]} = "):
-                self.context.set_render(settings(**fields))
-
-    def test_of_a_camera(self):
-        with self.assertRaisesRegex(pt.InvalidArgumentError, "camera"):
-            self.context.set_camera(pt.Camera(position=(1, 2, 3), target=(1, 2, 3)))
-        for wrong in (1, 2), (1, 2, 3, 4), 1, [[1, 2, 3]]:
-            with self.assertRaisesRegex(ValueError, "position = .*: must be three numbers"):
-                pt.Camera(position=wrong, target=(1, 2, 3))
-
-    def test_of_colors(self):
+    def test_of_values(self):
+        ready(self.context)
+        for error, message, call in (
+                (pt.InvalidArgumentError, "^render.width = 0: must be >= 1$", lambda: self.context.set_render(settings(width=0))),
+                (ValueError, "render.seed = ", lambda: self.context.set_render(settings(seed=-1))),
+                (ValueError, "render.seed = ", lambda: self.context.set_render(settings(seed=2**64))),
+                (ValueError, "render.width = ", lambda: self.context.set_render(settings(width=2**32 + 8))),
+                (pt.InvalidArgumentError, "camera", lambda: self.context.set_camera(pt.Camera((1, 2, 3), (1, 2, 3)))),
+                *((ValueError, "position = .*: must be three numbers", lambda wrong=wrong: pt.Camera(wrong, (1, 2, 3)))
+                  for wrong in ((1, 2), (1, 2, 3, 4), 1, [[1, 2, 3]])),
+                (ValueError, "emission = .*: must be three numbers", lambda: pt.Material(emission=(1, 2))),
+                (pt.InvalidArgumentError, "accumulate.sample_count = 0", lambda: self.context.accumulate(0)),
+                (ValueError, "sample_count = -1", lambda: self.context.accumulate(-1)),
+                (ValueError, f"sample_count = {2**32}", lambda: self.context.accumulate(2**32)),
+                (pt.NoDeviceError, "no such device", lambda: pt.Context("no such device")),
+                (ValueError, "submit_milliseconds = 0", lambda: pt.Context(submit_milliseconds=0))):
+            with self.subTest(message), self.assertRaisesRegex(error, message):
+                call()
         for grey in 0.5, np.float32(0.5), (0.5, 0.5, 0.5), np.full(3, 0.5), [0.5] * 3:
             self.assertEqual(pt.Material(diffuse=grey).diffuse, (0.5, 0.5, 0.5))
-        with self.assertRaisesRegex(ValueError, "emission = .*: must be three numbers"):
-            pt.Material(emission=(1, 2))
-
-    def test_of_numbers_of_samples(self):
-        ready(self.context)
-        with self.assertRaisesRegex(pt.InvalidArgumentError, "accumulate.sample_count = 0"):
-            self.context.accumulate(0)
-        for count in -1, 2**32:
-            with self.assertRaisesRegex(ValueError, f"sample_count = {count}"):
-                self.context.accumulate(count)
-
-    def test_of_devices(self):
-        with self.assertRaisesRegex(pt.NoDeviceError, "no such device"):
-            pt.Context("no such device")
-        with self.assertRaisesRegex(ValueError, "submit_milliseconds = 0"):
-            pt.Context(submit_milliseconds=0)

@@ -147,15 +147,6 @@ class Plans(unittest.TestCase):
         ready(self.context, first_sample=first, **self.SHAPE).accumulate_tiles(counts)
         return self.context.film()
 
-    def test_tiles_add_to_one_rendering(self):
-        ready(self.context, **self.SHAPE).accumulate(24)
-        whole = self.context.film()
-        below = np.zeros((13, 17), np.uint32)
-        below[6:, 3:] = 24
-        parts = [self.tiles(0, below), self.tiles(0, np.where(below, 0, 9)), self.tiles(9, np.where(below, 0, 15))]
-        self.assertEqual(sum(parts), whole)
-        self.assertNotEqual(parts[0] + parts[1], whole)
-
     def test_plans_end_where_a_context_does(self):
         ready(self.context, **self.SHAPE).accumulate(self.MOST, target_error=self.ERROR)
         one = self.context.film()

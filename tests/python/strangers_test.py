@@ -32,13 +32,6 @@ class Files(unittest.TestCase):
 
 
 class Texts(unittest.TestCase):
-    def test_what_steers_terminals_is_shown(self):
-        """The cases come from tests/cli/input_file_test.cpp."""
-        self.assertEqual(printable("\x1b[2J\r\n\t\x7f\0"), "<U+001B>[2J<U+000D><U+000A><U+0009><U+007F><U+0000>")
-        self.assertEqual(printable("\x9b \u061c\u200e\u200f \u2028\u2029\u202a\u202e \u2066\u2069"),
-                         "<U+009B> <U+061C><U+200E><U+200F> <U+2028><U+2029><U+202A><U+202E> <U+2066><U+2069>")
-        for text in "", "café 世界 \U0001f3a8 \u200d\u0301 ~", "\xa0\u2027\u202f\u2065\u206a":
-            self.assertEqual(printable(text), text)
 
     def test_every_line_has_the_programs_name(self):
         with contextlib.redirect_stderr(io.StringIO()) as stream:
