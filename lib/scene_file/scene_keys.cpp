@@ -58,21 +58,21 @@ constexpr bool required = true;
 constexpr bool optional = false;
 
 constexpr std::array camera_keys{
-    SceneKey{"position", lengths, "Where it is", "", required,
+    SceneKey{"position", lengths, "Position", "", required,
              [](Item item, Value value) { put(value, item.scene.camera.position); }},
-    SceneKey{"look_at", lengths, "The point in the middle of the picture", "", required,
+    SceneKey{"look_at", lengths, "Middle of the picture", "", required,
              [](Item item, Value value) { put(value, item.scene.camera.target); }},
-    SceneKey{"up", direction, "Upward direction in the picture; need not be perpendicular to the view", "[0, 1, 0]",
-             optional, [](Item item, Value value) { put(value, item.scene.camera.up); }},
-    SceneKey{"projection", one_of("projection", projections.names()),
-             "Rays share the point position, or the direction to look_at", "perspective", optional,
+    SceneKey{"up", direction, "Upward direction", "[0, 1, 0]", optional,
+             [](Item item, Value value) { put(value, item.scene.camera.up); }},
+    SceneKey{"projection", one_of("projection", projections.names()), "Rays from position, or parallel rays",
+             "perspective", optional,
              [](Item item, Value value) {
                  item.scene.camera.projection = projections.find(value.get_ref<const std::string &>()).value();
              }},
     // The library's [1e-8, pi) in degrees. 0 would mean its default, here and for the extent.
     SceneKey{"vertical_fov",
              {.least = 6e-7, .largest = 180.0, .excludes_largest = true, .unit = "degrees"},
-             "Angle of the picture's height (perspective)",
+             "Vertical angle of view (perspective)",
              "45",
              optional,
              [](Item item, Value value) {
@@ -85,7 +85,7 @@ constexpr std::array camera_keys{
              [](Item item, Value value) { item.scene.camera.aperture = value.get<double>(); }},
     SceneKey{"focus", distance, "Depth in focus; 0: the depth of look_at", "0", optional,
              [](Item item, Value value) { item.scene.camera.focus = value.get<double>(); }},
-    SceneKey{"shutter", times, "When it opens and closes", "[0, 1]", optional,
+    SceneKey{"shutter", times, "Times of opening and closing", "[0, 1]", optional,
              [](Item item, Value value) {
                  std::tie(item.scene.camera.shutter_open, item.scene.camera.shutter_close) =
                      value.get<std::pair<double, double>>();
@@ -93,9 +93,9 @@ constexpr std::array camera_keys{
 };
 
 constexpr std::array film_keys{
-    SceneKey{"width", whole_number(1, largest_uint32), "Its width", "512", optional,
+    SceneKey{"width", whole_number(1, largest_uint32), "Width", "512", optional,
              [](Item item, Value value) { item.scene.render.width = value.get<std::uint32_t>(); }},
-    SceneKey{"height", whole_number(1, largest_uint32), "Its height", "512", optional,
+    SceneKey{"height", whole_number(1, largest_uint32), "Height", "512", optional,
              [](Item item, Value value) { item.scene.render.height = value.get<std::uint32_t>(); }},
     SceneKey{"exposure",
              {.form = Form::number_or_auto, .least = -largest_exposure, .largest = largest_exposure, .unit = "stops"},
@@ -111,21 +111,20 @@ constexpr std::array film_keys{
                  item.scene.display.curve = tone_curves.find(value.get_ref<const std::string &>()).value();
              },
              "--tonemap"},
-    SceneKey{"gamma", number(0.1, 10.0), "Encode with the power 1 / gamma, in place of the sRGB curve",
-             "the sRGB curve", optional, [](Item item, Value value) { item.scene.display.gamma = value.get<double>(); },
-             "--gamma"},
+    SceneKey{"gamma", number(0.1, 10.0), "Power 1 / gamma instead of the sRGB curve", "the sRGB curve", optional,
+             [](Item item, Value value) { item.scene.display.gamma = value.get<double>(); }, "--gamma"},
 };
 
 constexpr std::array render_keys{
     SceneKey{"max_path_length", whole_number(1, 1024),
-             "Surfaces that light meets on its way to the camera: 1 shows lamps alone, 2 direct light", "6", optional,
+             "Most surfaces on a path to the camera: 1 shows only lamps, 2 adds direct light", "6", optional,
              [](Item item, Value value) { item.scene.render.max_path_length = value.get<std::uint32_t>(); },
              "--max-path-length"},
     SceneKey{"spp", whole_number(1, largest_uint32), "Samples per pixel", "64", optional,
              [](Item item, Value value) { item.scene.sample_count = value.get<std::uint32_t>(); }, "--spp"},
     SceneKey{"seed", whole_number(0, largest_uint64), "Chooses the random numbers", "0", optional,
              [](Item item, Value value) { item.scene.render.seed = value.get<std::uint64_t>(); }, "--seed"},
-    SceneKey{"sampler", one_of("sampler", samplers.names()), "Where the points of samples come from", "best", optional,
+    SceneKey{"sampler", one_of("sampler", samplers.names()), "Source of sample points", "best", optional,
              [](Item item, Value value) {
                  item.scene.render.sampler = samplers.find(value.get_ref<const std::string &>()).value();
              },
@@ -138,24 +137,22 @@ constexpr std::array render_keys{
 };
 
 constexpr std::array material_keys{
-    SceneKey{"diffuse", radiance, "Share of the light that is scattered evenly", "0", optional,
+    SceneKey{"diffuse", radiance, "Fraction of light that is reflected diffusely", "0", optional,
              [](Item item, Value value) { put(value, item.material.diffuse); }},
     SceneKey{"specular", radiance,
-             "Weight of the lobe about the mirror direction; with diffuse above 1, more light leaves than arrives", "0",
-             optional, [](Item item, Value value) { put(value, item.material.specular); }},
+             "Weight of the lobe about the mirror direction; a sum with diffuse above 1 adds light", "0", optional,
+             [](Item item, Value value) { put(value, item.material.specular); }},
     SceneKey{"glossiness",
              {.least = 0.0, .largest = 1e9, .is_of_library = true, .is_float = true},
-             "The lobe's exponent: the larger, the sharper",
+             "The lobe's exponent",
              "0",
              optional,
              [](Item item, Value value) { item.material.glossiness = value.get<float>(); }},
-    SceneKey{"emission", radiance, "Light of its own, the same in all directions", "0", optional,
+    SceneKey{"emission", radiance, "Emitted light, the same in all directions", "0", optional,
              [](Item item, Value value) { put(value, item.material.emission); }},
     SceneKey{
         "hidden_from_camera", boolean,
-        "The camera looks through the surface, all other rays meet it: for a lamp outside the picture, or a "
-        "wall, to look into a room",
-        "false", optional,
+        "Only camera rays pass through: for invisible lamps, or a wall in front of a room", "false", optional,
         [](Item item, Value value) { item.material.flags = value.get<bool>() ? PT_MATERIAL_HIDDEN_FROM_CAMERA : 0; }},
 };
 
@@ -163,17 +160,21 @@ Look &look_of(Item item) {
     return item.look ? *item.look : item.look.emplace();
 }
 
-constexpr SceneKey center_key{"center",    lengths,
-                              "At time 0", "",
-                              required,    [](Item item, Value value) { put(value, item.sphere.center); },
-                              "",          &pt_sphere_array::center};
+constexpr SceneKey center_key{"center",
+                              lengths,
+                              "Position at time 0",
+                              "",
+                              required,
+                              [](Item item, Value value) { put(value, item.sphere.center); },
+                              "",
+                              &pt_sphere_array::center};
 constexpr SceneKey radius_key{"radius", radius,
                               "",       "",
                               required, [](Item item, Value value) { item.sphere.radius = value.get<double>(); },
                               "",       &pt_sphere_array::radius};
 constexpr SceneKey material_key{
     "material", material_name,
-    "Its name", "",
+    "Name",     "",
     required,   [](Item item, Value value) {
                                     item.material_name = value.get_ref<const std::string &>(); }};
 constexpr SceneKey color_key{"color",
@@ -191,25 +192,25 @@ constexpr SceneKey color_key{"color",
 
 constexpr SceneKey opacity_key{"opacity",
                                opacity_share,
-                               "Share of rays that meet it; the others pass it, each at random",
+                               "Probability that a ray hits the sphere",
                                "1",
                                optional,
                                [](Item item, Value value) { look_of(item).opacity = value.get<float>(); },
                                "",
                                &pt_sphere_array::opacity};
 
-constexpr std::array sphere_keys{
-    center_key,
-    radius_key,
-    material_key,
-    SceneKey{"motion", lengths, "Way from time 0 to time 1; the camera's shutter says which part is seen", "[0, 0, 0]",
-             optional, [](Item item, Value value) { put(value, item.sphere.motion); }, "", &pt_sphere_array::motion},
-    color_key,
-    opacity_key};
+constexpr std::array sphere_keys{center_key,
+                                 radius_key,
+                                 material_key,
+                                 SceneKey{"motion", lengths, "Displacement from time 0 to time 1", "[0, 0, 0]",
+                                          optional, [](Item item, Value value) { put(value, item.sphere.motion); }, "",
+                                          &pt_sphere_array::motion},
+                                 color_key,
+                                 opacity_key};
 
 constexpr std::array capsule_keys{
     SceneKey{"center", lengths, "One end", "", required, center_key.store, "", center_key.column},
-    SceneKey{"end", lengths, "The other", "", required, [](Item item, Value value) { put(value, item.end); }, "",
+    SceneKey{"end", lengths, "The other end", "", required, [](Item item, Value value) { put(value, item.end); }, "",
              &pt_sphere_array::end},
     radius_key,
     material_key,
@@ -217,10 +218,10 @@ constexpr std::array capsule_keys{
     opacity_key};
 
 constexpr std::array plane_keys{
-    SceneKey{"normal", direction, "Of any length", "", required,
+    SceneKey{"normal", direction, "Normal of any length", "", required,
              [](Item item, Value value) { put(value, item.plane.normal); }},
-    SceneKey{"offset", ValueRule{}, "Minus the distance from the origin along the normal, times its length", "",
-             required, [](Item item, Value value) { item.plane.offset = value.get<double>(); }},
+    SceneKey{"offset", ValueRule{}, "Offset", "", required,
+             [](Item item, Value value) { item.plane.offset = value.get<double>(); }},
     material_key,
 };
 
