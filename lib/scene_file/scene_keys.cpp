@@ -192,7 +192,7 @@ constexpr SceneKey color_key{"color",
 
 constexpr SceneKey opacity_key{"opacity",
                                opacity_share,
-                               "Probability that a ray hits the sphere",
+                               "Probability that a ray hits it",
                                "1",
                                optional,
                                [](Item item, Value value) { look_of(item).opacity = value.get<float>(); },
