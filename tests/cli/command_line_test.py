@@ -83,7 +83,6 @@ class SceneErrors(CommandLineTest):
 
 
 class Devices(CommandLineTest):
-
     def test_they_are_listed(self):
         self.expect(0, "devices")
         self.assertIn("fake device", self.output)

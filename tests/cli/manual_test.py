@@ -62,7 +62,6 @@ def scene_with(section, values):
 
 
 class SceneFile(CommandLineTest):
-
     def test_names_are_all_of_them(self):
         for section, key, kind in (("film", "tonemap", "tone map"), ("render", "sampler", "sampler"),
                                    ("render", "estimator", "estimator")):

@@ -32,7 +32,6 @@ class Files(unittest.TestCase):
 
 
 class Texts(unittest.TestCase):
-
     def test_every_line_has_the_programs_name(self):
         with contextlib.redirect_stderr(io.StringIO()) as stream:
             tell("pt-x", "a\x1b\u2028b\nc\n")
