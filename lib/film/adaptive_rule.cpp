@@ -12,13 +12,13 @@ namespace {
 
 constexpr std::uint64_t first_level = 16;
 
-// Each tile takes at least 1 / floor_share of the mean number of samples. Otherwise a tile would stop before a sample
+// Each tile takes at least 1 / floor_share of the mean number of samples. With fewer, a tile would stop before a sample
 // has hit its light.
 constexpr std::uint64_t floor_share = 2;
 
 constexpr double root_of_half = 0.70710678118654752440;
 
-// Returns 2^(-halves / 2), with the same bits on all machines.
+// 2^(-halves / 2), with the same bits on all machines.
 double power_of_halves(std::int32_t halves) {
     const std::int32_t wholes = halves >> 1; // rounded down
     return std::ldexp((halves & 1) != 0 ? root_of_half : 1.0, -wholes);
@@ -35,7 +35,7 @@ std::int32_t last_content_round(double gain) {
     return -2 * exponent + (fraction <= 0.5 ? 2 : fraction <= root_of_half ? 1 : 0);
 }
 
-// Sums of squared errors by the last round in which tiles need no samples.
+// Sums of squared errors. The key is the last round in which the tiles need no samples.
 using SquaresByRound = std::map<std::int32_t, double>;
 
 SquaresByRound by_content_round(std::span<const double> gains, std::span<const double> squares) {
@@ -53,10 +53,10 @@ SquaresByRound by_content_round(std::span<const double> gains, std::span<const d
 }
 
 // With stratified samples, squared errors fall about as N^-1.5. Doubling a tile's samples divides its squared error by
-// 2^1.5 and its gain by 2^2.5, which takes five rounds.
+// 2^1.5 and its gain by 2^2.5, which stands for five rounds.
 double expected_sum(const SquaresByRound &squares, std::int32_t round) {
-    constexpr std::int32_t rounds = 5; // per doubling
-    constexpr std::int32_t halves = 3; // 1.5, in halves
+    constexpr std::int32_t rounds = 5; // rounds per doubling
+    constexpr std::int32_t halves = 3; // the exponent 1.5, in halves
     double sum = 0.0;
     for (const auto &[content, square] : squares)
         sum += square * power_of_halves(halves * std::max((round - content + rounds - 1) / rounds, 0));
@@ -73,7 +73,8 @@ bool is_level(std::uint64_t sample_count) {
     return sample_count >= first_level && std::has_single_bit(sample_count);
 }
 
-// Leaves out the constant factor 1/2. Loops by rows, since a division per tile would take longer than the rest.
+// The constant factor 1/2 is left out. The loops go row by row, because a division per tile would take longer than the
+// rest.
 std::vector<double> tile_gains(const TileSamples &samples, std::span<const double> squares) {
     std::vector<double> shares; // by set
     for (const SampleSet &set : samples.sets())
@@ -125,7 +126,7 @@ AdaptiveRound round_of_lamps(std::span<const double> gains) {
     return {most > 0.0 ? last_content_round(most) : 0, 0};
 }
 
-// Skips rounds that are not expected to reach the target, since each round costs checks.
+// Skips rounds that are not expected to reach the target, because each round costs checks.
 AdaptiveRound round_after(const AdaptiveRound &round, const TileSamples &samples, std::span<const double> squares,
                           std::span<const double> gains, double excess, bool sees_too_little) {
     const std::uint64_t pixels = std::uint64_t{samples.grid().width} * samples.grid().height;
@@ -140,7 +141,7 @@ AdaptiveRound round_after(const AdaptiveRound &round, const TileSamples &samples
         return next;
     }
     const std::int32_t content = std::max(round.number, by_round.begin()->first);
-    // Light that no sample hit keeps the target away, which the floor serves.
+    // The rest of the error is light that no sample has hit. The floor serves this light, and gains do not.
     if (sees_too_little && excess <= 1.0) {
         next.number = content;
         return next;
@@ -156,7 +157,7 @@ AdaptiveRound round_after(const AdaptiveRound &round, const TileSamples &samples
 
 namespace {
 
-// The image's error is slow to compute, so it is checked only this near to the target.
+// The image's error is slow to compute, so it is checked only within this factor of the target.
 constexpr double near_target = 1.2;
 
 double error_of(const TileSamples &samples, std::span<const double> squares) {
@@ -185,7 +186,7 @@ std::optional<TileStep> AdaptivePlan::next(const TileSamples &samples, AdaptiveR
     return next_apart(samples, round);
 }
 
-// While all tiles have equal samples, the error is checked at the same counts as without adaptation.
+// While all tiles have equal samples, the error is checked at the counts that a film without adaptive sampling has.
 std::optional<TileStep> AdaptivePlan::next_together(const TileSamples &samples, AdaptiveRound &round) const {
     const std::uint64_t count = samples.least();
     if (samples.even() && is_level(count) && are_worth_telling_apart(tile_gains(samples, film_.squares())))
@@ -197,8 +198,8 @@ std::optional<TileStep> AdaptivePlan::next_together(const TileSamples &samples, 
                     [goal](std::uint32_t) { return goal; }};
 }
 
-// A round does not end while a tile must wait for another call. If all wanting tiles are at their final limit, the
-// tiles with the fewest samples take more.
+// A round does not end while a tile must wait for another call. If all tiles that want samples are at their final
+// limit, the tiles with the fewest samples take more.
 std::optional<TileStep> AdaptivePlan::next_apart(const TileSamples &samples, AdaptiveRound &round) const {
     const std::vector<double> squares = film_.squares();
     const std::vector<double> gains = tile_gains(samples, squares);
@@ -237,7 +238,7 @@ std::optional<TileStep> AdaptivePlan::next_on_target(const TileSamples &samples,
     return to_next_level(samples, std::move(tiles));
 }
 
-// Returns the tiles that are between two levels or have no samples.
+// Returns the tiles that are between two powers of two or have no samples.
 std::vector<std::uint32_t> AdaptivePlan::unfinished_tiles(const TileSamples &samples) const {
     return tiles_where(samples,
                        [this](std::uint32_t, std::uint64_t has) { return !is_level(has) && has < counts_.limit; });

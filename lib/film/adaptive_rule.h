@@ -2,8 +2,8 @@
 // each round, tiles double their samples while the expected gain per added sample exceeds a bound. The bound falls from
 // round to round until the image's error is small enough.
 //
-// A round leaves each tile at the first level whose gain is at most the bound. The order in which tiles take samples
-// does not matter.
+// A round leaves each tile at the first level whose gain is at most the bound, in whatever order the tiles take
+// samples.
 #pragma once
 
 #include "lib/film/error_estimate.h"
@@ -26,11 +26,10 @@ bool is_level(std::uint64_t sample_count);
 // has the expected sum of squared relative errors of each tile.
 std::vector<double> tile_gains(const TileSamples &samples, std::span<const double> squares);
 
-// Whether different sample counts in tiles would save samples.
 bool are_worth_telling_apart(std::span<const double> gains);
 
-// Returns the tiles that double their samples in this round. All tiles must be at a level. `lamps` has the samples per
-// pixel that each tile needs to hit lamps smaller than a pixel.
+// Returns the tiles that double their samples in this round. Each tile's count must be a level. `lamps` has the samples
+// per pixel that each tile needs to hit lamps smaller than a pixel.
 std::vector<std::uint32_t> wanting_tiles(const TileSamples &samples, std::span<const double> gains,
                                          std::span<const std::uint64_t> lamps, const AdaptiveRound &round);
 
@@ -44,22 +43,22 @@ AdaptiveRound round_after(const AdaptiveRound &round, const TileSamples &samples
                           std::span<const double> gains, double excess, bool sees_too_little);
 
 struct TileStep {
-    std::vector<std::uint32_t> tiles;                 // ascending
+    std::vector<std::uint32_t> tiles;
     std::function<std::uint64_t(std::uint32_t)> goal; // samples per pixel
 };
 
-// Each call is slow.
+// Functions that read the film. All of them are slow.
 struct FilmLooks {
     std::function<ErrorEstimate()> error;
-    std::function<std::vector<double>()> squares; // own_square() by tile
+    std::function<std::vector<double>()> squares;
 
-    std::function<std::vector<std::uint64_t>()> samples_for_lamps; // lamps of wanting_tiles()
+    std::function<std::vector<std::uint64_t>()> samples_for_lamps;
 };
 
-// Maximum samples of a pixel.
+// The most samples that a pixel may take.
 struct MostSamples {
-    std::uint64_t most;  // in this call
-    std::uint64_t limit; // in all calls
+    std::uint64_t most;
+    std::uint64_t limit; // over all calls
 };
 
 // While tiles have equal samples, the error is checked at fixed counts. Later, a tile's need depends only on its own
@@ -72,8 +71,8 @@ public:
         film_(std::move(film)) {}
 
     // Returns no value if the film has the target error and enough samples for the lamps in view. Returns no tiles if
-    // none may take more samples. The goals refer to `samples`, which must outlive them. If the round has ended,
-    // `round` becomes the next one.
+    // no tile may take more samples. The goals refer to `samples`, which must outlive them. After the end of a round,
+    // `round` is the next one.
     std::optional<TileStep> next(const TileSamples &samples, AdaptiveRound &round) const;
 
 private:

@@ -19,26 +19,25 @@ constexpr std::size_t colors = 3;
 constexpr double not_found = std::numeric_limits<double>::infinity();
 
 constexpr std::uint32_t least_side = 16;    // pixels
-constexpr std::uint32_t reported_side = 32; // of smallest_tile_change
+constexpr std::uint32_t reported_side = 32; // side of the regions of smallest_tile_change
 
-// Differences up to this fraction of the light count as rounding errors. A lobe 2^x with x >= -100 errs by up to
-// 100 ln 2 * 18 u in x and 203 u in the power (lib/kernel/accuracy.cpp), 8.7e-5.
+// Differences up to this fraction of the light count as rounding errors. A lobe 2^x with x >= -100 has an error of up
+// to 100 ln 2 * 18 u from x, plus 203 u of the power (lib/kernel/accuracy.cpp). Together this is 8.7e-5.
 constexpr double rounding_share = 1e-4;
 
 // P(|sum of e_i d_i| >= z sqrt(sum of d_i^2)) <= 2 * 3.178 P(normal >= z) for random signs e_i (Bentkus and
 // Dzindzalieta 2015).
 constexpr double sign_constant = 3.178;
 
-// P(normal < 2.326) = 99%.
 constexpr double quantile_99 = 2.326;
 
 struct ChannelSums {
-    double light = 0.0; // second image
+    double light = 0.0; // light of the second image
     double light_squares = 0.0;
     double difference = 0.0; // first minus second
-    double squares = 0.0;    // of differences
+    double squares = 0.0;    // sum of squared differences
     double cubes = 0.0;
-    double first_lit = 0.0; // pixels with light
+    double first_lit = 0.0; // lit pixels of the first image
     double second_lit = 0.0;
 
     void add_pixel(double first, double second) {
@@ -63,7 +62,7 @@ bool may_miss_lamps(const pt_compared_image &image) {
     return finds_lamps_by_chance(image.estimator, some_length);
 }
 
-// Whether a lack of light in the first or second image is evidence.
+// Whether a lack of light in each image is evidence.
 struct Knowledge {
     bool of_first;
     bool of_second;
@@ -125,7 +124,6 @@ Level twice_as_large(const pt_compare_info &info, const Level &level) {
     return larger;
 }
 
-// Returns the levels from the smallest tiles to the whole picture.
 std::vector<Level> levels_of(const pt_compare_info &info) {
     std::vector<Level> levels{tiles_of(info)};
     while (levels.back().regions.size() > 1)
@@ -133,17 +131,17 @@ std::vector<Level> levels_of(const pt_compare_info &info) {
     return levels;
 }
 
-// Returns how much more one sample counts in the image with fewer samples.
+// Returns how much more one sample counts in the image that has fewer samples.
 double sample_ratio(const pt_compare_info &info) {
     const double first = info.first.min_samples;
     const double second = info.second.min_samples;
     return first > 0.0 && second > 0.0 ? std::max(first / second, second / first) : 1.0;
 }
 
-// The largest differences of single pixels. By chance, a region may have missed light of this size.
+// The largest differences of single pixels. A region may lack light of this size by chance.
 struct Events {
     double absolute = 0.0; // largest difference of pixels with more than twice the light
-    double relative = 0.0; // of other pixels, fraction of the light
+    double relative = 0.0; // largest difference of other pixels, as a fraction of the light
 
     void add_pixel(double first, double second, double ratio) {
         const double event = ratio * std::abs(first - second);
@@ -172,10 +170,10 @@ ChannelEvents largest_events(const pt_compare_info &info) {
     return events;
 }
 
-// A difference that rare events, absent by chance, may partly explain.
+// A difference, of which the absence of rare events may explain a part.
 struct Difference {
-    double z;        // difference, in deviations
-    double event;    // in deviations
+    double z;        // difference in standard deviations
+    double event;    // largest event in standard deviations
     double skewness; // towards the other sign, >= 0
 
     // Returns an upper bound for the probability of this difference in equal light. Noise explains up to 1 / event
@@ -205,9 +203,9 @@ public:
         return excess > 0.0 ? probability_of(excess, deviation_, event_, skewness(sign), met) : 1.0;
     }
 
-    // Returns the smallest change, as a fraction of the light, that is found with 99% probability at this rate. A
-    // change a multiplies the first image's noise and events by up to 1 + a, and adds a^2 times the squared light to
-    // the squared differences.
+    // Returns the smallest change, as a fraction of the light, that is found with 99% probability at this rate. If the
+    // second image is 1 + a times as bright as the first, noise and events grow by up to 1 + a, and the squared
+    // differences grow by a^2 times the squared light.
     double smallest_change(double rate) const {
         const double worst_skewness = std::max(skewness(-1.0), skewness(1.0));
         const double met = std::min(met_by_first(), met_by_second());
@@ -230,7 +228,8 @@ public:
     }
 
 private:
-    // A lower bound for the events in an image, by the pixels without light. 0 if a lack of light is no evidence.
+    // A lower bound for the number of events in an image, from its pixels without light. The bound is 0 if a lack of
+    // light is no evidence.
     double met_by_first() const { return knowledge_.of_first ? events_in(sums_.first_lit) : 0.0; }
     double met_by_second() const { return knowledge_.of_second ? events_in(sums_.second_lit) : 0.0; }
     double events_in(double lit) const { return pixel_count_ * -std::log1p(-lit / pixel_count_); }
@@ -239,8 +238,8 @@ private:
         return deviation_ > 0.0 ? std::max(0.0, -sign * sums_.cubes / std::pow(deviation_, 3.0)) : 0.0;
     }
 
-    // met: events in the darker image. The skewness of k events is 1 / sqrt(k), with which no difference has a lower
-    // bound than e^(-k / 2 + k / 3).
+    // `met` is the number of events in the darker image. The skewness of k events is 1 / sqrt(k). With this skewness no
+    // difference has a lower bound than e^(-k / 2 + k / 3).
     static double probability_of(double excess, double deviation, double event, double skewness, double met) {
         const Difference difference{excess / deviation, event / deviation, skewness};
         return std::max(difference.probability(), std::exp(-met / 6.0));
@@ -250,7 +249,7 @@ private:
     Knowledge knowledge_;
     double pixel_count_;
     double event_;
-    double deviation_; // of the sum
+    double deviation_;
 };
 
 // `test_count` tests share the rate.
@@ -297,7 +296,7 @@ std::uint32_t light_of(const pt_compare_info &info, const pt_comparison &verdict
 
 } // namespace
 
-// The rate is divided equally among the sizes of regions, then among the regions and channels of a size (Bonferroni
+// Divides the rate equally among the sizes of regions, then among the regions and channels of a size (Bonferroni
 // correction).
 Comparison compare_light(const pt_compare_info &info) {
     const double look = info.look;

@@ -11,7 +11,6 @@ namespace pt {
 
 namespace {
 
-// Example: "0.41%".
 std::string percent(double share) {
     std::array<char, 32> text{};
     std::snprintf(text.data(), text.size(), "%.2g%%", 100.0 * share);
@@ -29,7 +28,6 @@ std::size_t clearest_channel(const pt_compared_region &region) {
     return clearest;
 }
 
-// The bounds have 95% confidence.
 std::string change_of(const pt_compared_region &region, bool is_whole) {
     const std::size_t channel = clearest_channel(region);
     const double light = region.light[channel];

@@ -14,24 +14,25 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double channels = 3.0;
 
-// A larger fraction of unseen light in the squared error makes an estimate uncertain. Calibrated.
+// An estimate is uncertain if more than this fraction of the squared error is unseen light. Calibrated.
 constexpr double much_unseen = 0.2;
 
-// An estimate is uncertain if rarer light could make the squared error this much larger. Calibrated.
+// An estimate is uncertain if rarer light could multiply the squared error by this. Calibrated.
 constexpr double much_more = 3.0;
 
-// Plain Halton points are the same in all pixels, so errors of neighbors are correlated and scatter more. Calibrated.
+// Plain Halton points are the same in all pixels. Errors of neighbors are then correlated, so estimates scatter more.
+// Calibrated.
 double margin(std::uint32_t sampler) {
     return sampler == PT_SAMPLER_HALTON ? 1.2 : 1.0;
 }
 
-// At some sample counts N, quasi-random errors fall more slowly than N^-1/2, and the difference of the parts is too
-// small. Calibrated.
+// The difference of the parts is too small at sample counts where quasi-random errors fall more slowly than N^-1/2.
+// Calibrated.
 double margin_of_sequence(std::uint32_t sampler) {
     return sampler == PT_SAMPLER_RANDOM ? 1.0 : 1.145;
 }
 
-// The number of pixels with equal errors whose sum is equally uncertain.
+// The number of equal squares whose sum would be equally uncertain.
 double pixel_count(const ErrorSquares &squares) {
     return squares.sum > 0.0 ? squared(squares.sum) / squares.of_pixels : infinity;
 }
@@ -53,8 +54,8 @@ double square_by_hits(double met_once, double met_again) {
     return std::max(1.0, 1.0 / squared(hits));
 }
 
-// Values that one half hit have two estimates. One is relative to the other half and the surroundings. The other uses
-// square_by_hits(). The smaller estimate counts.
+// Values that one half hit have two estimates. The first is relative to the other half and the surroundings, and the
+// second uses square_by_hits(). The smaller estimate counts.
 ErrorSquares relative_squares(const TileErrors &all, double met_again) {
     const double factor = square_by_hits(all.as_lamps.sum / channels, met_again);
     ErrorSquares squares = all.relative_square;
@@ -67,14 +68,14 @@ ErrorSquares relative_squares(const TileErrors &all, double met_again) {
 
 } // namespace
 
-// The root of a sum over n pixels has a relative deviation of about 1 / (2 sqrt(n)). A little more is added, since
-// understated errors do more harm. Calibrated.
+// The root of a sum over n pixels has a relative deviation of about 1 / (2 sqrt(n)). The added fraction is a little
+// larger, because understated errors do more harm. Calibrated.
 double share_added(double pixel_count) {
     return 0.6 / std::sqrt(pixel_count) + 1.2 / pixel_count;
 }
 
 // The logarithm of the root of a sum of m squared normal variables has the deviation 1 / sqrt(2 m). Since E x^4 = 3, m
-// = 3 n such squares count as n pixels. The image's true error scatters as much as its estimate, so their ratio has the
+// = 3 n such squares count as n pixels. The true error scatters as much as its estimate, so the ratio of both has the
 // deviation 1 / sqrt(3 n).
 double spread_of_pixels(double pixel_count) {
     return std::exp(normal_95 / std::sqrt(3.0 * pixel_count));
@@ -155,8 +156,8 @@ Interval ErrorEstimator::root_mean(const ErrorSquares &squares, double other_squ
             estimate * spread};
 }
 
-// The number of pixels that both parts hit has a deviation of about its square root. Where lamps are found by chance,
-// this number shows nothing about rarer light, so it is not used.
+// The number of pixels that both parts hit has a deviation of about its square root. If lamps are found by chance, this
+// number shows nothing about rarer light and is not used.
 ErrorEstimate ErrorEstimator::result() const {
     const double again = all_.met_again / channels;
     const bool by_chance = conditions_.finds_lamps_by_chance;

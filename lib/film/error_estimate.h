@@ -9,7 +9,6 @@
 
 namespace pt {
 
-// The bounds have 95% confidence.
 struct Interval {
     double estimate;
     double low;
@@ -17,22 +16,22 @@ struct Interval {
 };
 
 struct ErrorEstimate {
-    Interval rmse;           // root of the mean of (x - r)^2
-    Interval relative_rmse;  // root of the mean of (x - r)^2 / (r^2 + 0.01)
-    std::uint32_t uncertain; // PT_UNCERTAIN_* of pt/stats.h
+    Interval rmse;
+    Interval relative_rmse;  // (x - r)^2 is divided by r^2 + 0.01
+    std::uint32_t uncertain; // PT_UNCERTAIN_*
 };
 
-// With fewer samples the error is unknown.
+// With fewer samples per pixel the error is unknown.
 inline constexpr std::uint32_t min_estimate_samples = 16;
 
-// The 95% interval of a normal distribution, in standard deviations.
+// 95% of a normal distribution are within this many standard deviations.
 inline constexpr double normal_95 = 1.96;
 
-// An estimate from fewer pixels is uncertain. Calibrated.
+// An estimate from fewer equal pixels is uncertain. Calibrated.
 inline constexpr double few_pixels = 4.0;
 
-// Both functions take an effective number of pixels. share_added() returns the fraction to add to an estimate.
-// spread_of_pixels() returns the factor between the estimate and its bounds.
+// Both take an effective number of pixels. share_added() is the fraction to add to an estimate. spread_of_pixels() is
+// the factor between the estimate and its bounds.
 double share_added(double pixel_count);
 double spread_of_pixels(double pixel_count);
 
@@ -43,23 +42,22 @@ ErrorEstimate unknown_error();
 
 pt_error_estimate stated(const ErrorEstimate &error);
 
-// Whether rejected samples make the error unknown. Rejected samples may be 2^20 times as bright as the brightest
-// emission (FILM_MAX_EXPONENT in gpu_layout.h). One in 2^20 samples may then outweigh all others.
+// Whether rejected samples make the error unknown. They may be 2^20 times as bright as the brightest emission
+// (FILM_MAX_EXPONENT in gpu_layout.h), so one in 2^20 samples may outweigh all others.
 bool hides_error(std::uint64_t rejected_samples, std::uint64_t samples);
 
 // The counts at which the error is checked: 16, then four per doubling.
 std::uint64_t next_check(std::uint64_t sample_count);
 bool is_check(std::uint64_t sample_count);
 
-// Returns the largest factor by which the difference of the parts may overstate the error. sampler: PT_SAMPLER_*.
+// The largest factor by which the difference of the parts may overstate the error. sampler: PT_SAMPLER_*.
 double exaggeration(std::uint32_t sampler);
 
-// Whether paths hit lamps only by chance. `estimator` is a PT_ESTIMATOR_*.
 bool finds_lamps_by_chance(std::uint32_t estimator, std::uint32_t max_path_length);
 
 struct SampleConditions {
     std::uint32_t sampler;
-    bool may_miss_lamps; // some lamps may have few hits
+    bool may_miss_lamps;
     bool finds_lamps_by_chance = false;
 };
 
@@ -67,10 +65,10 @@ class ErrorEstimator {
 public:
     explicit ErrorEstimator(const SampleConditions &conditions) : conditions_(conditions) {}
 
-    // Adds one tile or a sum of tiles. The order of calls changes the last bits of the result.
+    // The order of calls changes the last bits of the result.
     void add(const TileErrors &tiles);
 
-    // Requires at least one tile.
+    // Requires at least one add().
     ErrorEstimate result() const;
 
     std::uint64_t rejected() const { return all_.rejected; }

@@ -14,7 +14,7 @@ namespace pt {
 
 namespace {
 
-// Limits a tile to 7 MB, unless one row is larger. cut_along() copies whole tiles.
+// A larger tile must be a single row. cut_along() copies whole tiles, which take up to 7 MB.
 constexpr std::uint32_t most_tile_pixels = 1U << 16;
 
 std::string where(const Rectangle &pixels) {
@@ -69,7 +69,7 @@ void Film::require_disjoint(const std::vector<FilmTile> &others, const TileMap &
                 require_apart(others[*piece.tile].samples, own.samples, where(piece.pixels));
 }
 
-// Cuts each tile so that its pieces are within one tile of the map or outside all. Only one tile at a time is copied.
+// Cuts each tile into pieces that are within one tile of the map or outside all. Copies only one tile at a time.
 void Film::cut_along(const TileMap &map) {
     const std::size_t count = tiles_.size();
     for (std::size_t i = 0; i < count; ++i) {
@@ -98,8 +98,8 @@ std::vector<Film::Tile> Film::outside(const TileMap &map, std::vector<Tile> tile
     return found;
 }
 
-// Adds the pixels that both tiles have. `samples` is the union of their samples. A tile with another split than the
-// union has all samples on one side of the union's split.
+// Adds the pixels that both tiles have. `samples` is the union of their samples. If a tile's split is not the union's,
+// all of the tile's samples are on one side of the union's split.
 void Film::add_to(Tile &tile, const Tile &other, SampleSet samples) noexcept {
     const std::uint64_t split = split_of(samples.hull());
     const std::uint64_t others_split = split_of(other.samples.hull());
@@ -127,7 +127,7 @@ void Film::add(Film other) {
     cut_along(theirs);
     std::vector<FilmTile> sum = list();
     const TileMap own(sum);
-    std::vector<std::pair<std::size_t, std::size_t>> overlaps; // own tile, other tile
+    std::vector<std::pair<std::size_t, std::size_t>> overlaps; // this film's tile, the other's
     for (std::size_t i = 0; i < tiles_.size(); ++i)
         if (const TileMap::Span *const span = theirs.find(tiles_[i].pixels.x, tiles_[i].pixels.y)) {
             overlaps.emplace_back(i, span->tile);
@@ -142,7 +142,7 @@ void Film::add(Film other) {
                       united(std::move(lamps))};
     const Rectangle bounds = bounds_of(header.tiles);
     tiles_.reserve(tiles_.size() + added.size());
-    // No exception may occur below.
+    // Nothing below may throw.
     for (const auto &[tile, others_tile] : overlaps)
         add_to(tiles_[tile], other.tiles_[others_tile], std::move(sum[tile].samples));
     std::ranges::move(added, std::back_inserter(tiles_));
@@ -233,7 +233,7 @@ void Film::read_rows_from(std::uint32_t first_row, PixelSums &sums) const {
         sums.copy(rows, tile.sums, tile.pixels);
 }
 
-// If pixels of a tile have different samples, the estimate assumes the fewest samples and caches no errors.
+// If pixels of a tile have different samples, the estimate assumes the fewest and caches no errors.
 ErrorEstimate Film::error() const {
     if (const std::optional<TileSamples> samples = tile_samples(header_.tiles, bounds_))
         return error(*samples, errors_);

@@ -1,4 +1,3 @@
-// The film behind pt_film, which needs no device.
 #pragma once
 
 #include "lib/film/adaptive_rule.h"
@@ -26,10 +25,9 @@ public:
 
     const FilmFacts &facts() const { return facts_; }
 
-    // Tiles are in canonical form.
+    // Its tiles are in canonical form.
     const FilmHeader &header() const { return header_; }
 
-    // The smallest rectangle that contains all pixels of the film.
     const Rectangle &bounds() const { return bounds_; }
 
     // Adds another film. Throws PT_ERROR_INCOMPATIBLE if the films are of different pictures or have a common sample.
@@ -41,13 +39,13 @@ public:
 
     void stream(const FilmStream::Receive &receive) const;
 
-    // The minimum within the bounds.
+    // Least number of a pixel within the bounds.
     std::uint64_t sample_count() const;
     std::uint64_t max_sample_count() const;
-    std::uint64_t total_samples() const; // summed over pixels
+    std::uint64_t total_samples() const;
 
     // Calls receive(x, y, values) for runs of pixels within rows, in order. `pixels` is a rectangle of the image.
-    // `quantity` is a PT_QUANTITY_* of samples.
+    // `quantity` is a PT_QUANTITY_* that comes from samples.
     using ReceiveRow = std::function<void(std::uint32_t x, std::uint32_t y, const std::vector<float> &values)>;
     void read(const Rectangle &pixels, std::uint32_t quantity, const ReceiveRow &receive) const;
 
@@ -58,12 +56,11 @@ public:
     // Throws PT_ERROR_INCOMPATIBLE if pixels of one tile of the grid over the bounds have different samples.
     TileSamples samples_by_tile() const;
 
-    // The samples per pixel that are needed to hit all small lamps in view, or 0.
+    // Samples per pixel that hit all small lamps in view, or 0.
     std::uint32_t samples_for_lamps() const;
 
     std::optional<TileStep> plan(const TileSamples &samples, double target_error, std::uint64_t most);
 
-    // Tiles of the TileGrid over the bounds.
     std::size_t tile_count() const { return TileGrid{bounds_.width, bounds_.height}.count(); }
 
 private:

@@ -20,7 +20,7 @@ public:
 
     std::uint64_t size_bytes() const { return size_bytes_; }
 
-    // The offset of the first pixel's word. Parts without samples are not stored.
+    // Offset of the first pixel's word. Parts without samples are not stored.
     std::uint64_t plane_offset(std::size_t tile, std::uint32_t part, std::size_t plane) const;
     bool has_part(std::size_t tile, std::uint32_t part) const { return tiles_[tile].counts[part] > 0; }
     const PartCounts &counts(std::size_t tile) const { return tiles_[tile].counts; }
@@ -39,7 +39,7 @@ private:
 // Throws PT_ERROR_INVALID_ARGUMENT if the caller's memory is too small.
 void require_room(std::uint64_t size_bytes, std::uint64_t needed);
 
-// Call write() for all pixels of all tiles, then end().
+// write() is needed for all pixels of all tiles, then end().
 class FilmWriter {
 public:
     FilmWriter(const FilmHeader &header, std::span<std::byte> bytes);
@@ -52,11 +52,11 @@ private:
     std::span<std::byte> bytes_;
 };
 
-// Passes on a film's bytes in pieces of at most a megabyte. Call add() for each plane of each nonempty part, tile by
-// tile, then end().
+// Passes on a film's bytes in pieces of at most a megabyte. Each plane of each nonempty part needs add(), tile by tile,
+// then end().
 class FilmStream {
 public:
-    using Receive = std::function<void(std::span<const std::byte>)>; // may throw
+    using Receive = std::function<void(std::span<const std::byte>)>;
 
     FilmStream(const FilmHeader &header, Receive receive);
 

@@ -8,7 +8,7 @@
 namespace pt {
 
 struct FilmFacts {
-    std::uint32_t width; // whole image, pixels
+    std::uint32_t width; // width of the whole image
     std::uint32_t height;
     std::uint32_t max_path_length;
     std::uint64_t seed;
@@ -21,11 +21,11 @@ struct FilmFacts {
 // Throws PT_ERROR_INCOMPATIBLE if a fact is missing or invalid.
 FilmFacts facts_of(const FilmIdentity &identity);
 
-// Throws PT_ERROR_INCOMPATIBLE that names all different facts. `place` ends each message.
+// Throws PT_ERROR_INCOMPATIBLE with all facts that differ. `place` ends each message.
 void require_same(const FilmIdentity &film, const FilmIdentity &other, const std::string &place);
 
-// Throws PT_ERROR_INCOMPATIBLE if the sets overlap or have too many samples together. `where` names the pixels, or is
-// empty.
+// Throws PT_ERROR_INCOMPATIBLE if the sets overlap or have too many samples together. `where` names the pixels and may
+// be empty.
 void require_apart(const SampleSet &added, const SampleSet &present, const std::string &where);
 
 // Throws PT_ERROR_INCOMPATIBLE.

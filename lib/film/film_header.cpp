@@ -23,10 +23,10 @@ constexpr std::string_view samples_name = "samples";
 constexpr std::string_view round_name = "round";
 constexpr std::string_view lamps_name = "lamps";
 
-// More rounds than double-precision errors can need.
+// Double precision needs fewer rounds for any error.
 constexpr std::uint64_t max_round = 10'000;
 
-// Several times the present number. Limits memory, since a parsed line takes many times its length.
+// Several times the present number. A parsed line takes many times its length, so this limits memory.
 constexpr std::size_t max_facts = 100;
 
 [[noreturn]] void refuse(const std::string &message) {
@@ -44,7 +44,7 @@ std::string_view take_line(std::string_view &text) {
     return line;
 }
 
-// Reads numbers separated by blanks. Returns no value for other text.
+// Reads numbers with blanks between them. Returns no value for other text.
 template <std::size_t Count>
 std::optional<std::array<std::uint64_t, Count>> numbers(std::string_view text) {
     std::array<std::uint64_t, Count> values{};

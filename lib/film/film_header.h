@@ -1,4 +1,3 @@
-// The header of a film, as text (FORMAT.md).
 #pragma once
 
 #include "lib/film/sample_set.h"
@@ -22,7 +21,7 @@ struct FilmFact {
 };
 using FilmIdentity = std::vector<FilmFact>;
 
-// The origin is the image's top left corner.
+// Coordinates begin at the image's top left corner.
 struct Rectangle {
     std::uint32_t x, y, width, height;
 
@@ -37,14 +36,14 @@ struct Rectangle {
     bool operator==(const Rectangle &) const = default;
 };
 
-// Returns the intersection. An empty intersection has width or height 0.
+// The intersection. If it is empty, width or height is 0.
 inline Rectangle common(const Rectangle &a, const Rectangle &b) {
     const std::uint32_t x = std::max(a.x, b.x);
     const std::uint32_t y = std::max(a.y, b.y);
     return {x, y, std::max(std::min(a.right(), b.right()), x) - x, std::max(std::min(a.bottom(), b.bottom()), y) - y};
 }
 
-// All pixels have the same samples.
+// A rectangle whose pixels have the same samples.
 struct FilmTile {
     Rectangle pixels;
     SampleSet samples;
@@ -56,8 +55,8 @@ struct FilmTile {
 struct AdaptiveRound {
     static constexpr std::int32_t none = std::numeric_limits<std::int32_t>::min();
 
-    std::int32_t number = none; // the bound is 2^(-number / 2)
-    std::uint64_t floor = 0;    // minimum per pixel
+    std::int32_t number = none; // the bound of gains is 2^(-number / 2)
+    std::uint64_t floor = 0;    // least samples per pixel
 
     bool operator==(const AdaptiveRound &) const = default;
 };
@@ -70,7 +69,7 @@ inline AdaptiveRound later_of(const AdaptiveRound &a, const AdaptiveRound &b) {
 struct LampSquare {
     std::uint32_t x; // multiples of lamp_square
     std::uint32_t y;
-    std::uint32_t samples; // per pixel, to hit the smallest lamp
+    std::uint32_t samples; // per pixel; hits the smallest lamp
 
     bool operator==(const LampSquare &) const = default;
 };
@@ -89,7 +88,6 @@ struct FilmHeader {
     bool operator==(const FilmHeader &) const = default;
 };
 
-// The text ends with an empty line.
 std::string text_of(const FilmHeader &header);
 
 // The inverse of text_of(). Throws PT_ERROR_INCOMPATIBLE for any other text or version.

@@ -22,7 +22,7 @@ constexpr std::uint32_t pixel_bytes(std::uint32_t format) {
     return components * component_bytes(format);
 }
 
-// The nearest float16 of a number >= 0, ties to even. From 65520 on the result is infinity.
+// The nearest float16 of a number >= 0. Ties go to even, and numbers from 65520 on to infinity.
 std::uint16_t half_bits(float value);
 
 // `values` has R, G and B of each pixel.

@@ -38,7 +38,7 @@ private:
 
 struct WordAndCarry {
     std::uint32_t word;
-    std::uint32_t carry; // 0 or 1
+    std::uint32_t carry;
 };
 
 // 32-bit arithmetic lets compilers vectorise over pixels.
@@ -53,7 +53,7 @@ WordAndCarry difference_of(std::uint32_t a, std::uint32_t b, std::uint32_t borro
     return {difference - borrow, static_cast<std::uint32_t>(a < b) | static_cast<std::uint32_t>(difference < borrow)};
 }
 
-// Goes plane by plane, since a sum's words pass carries on.
+// Goes plane by plane, because carries go from one word of a sum to the next.
 template <typename Operation>
 void combine(const PartWords<std::uint32_t> &to, const PartWords<const std::uint32_t> &from, std::size_t pixel_count,
              const Operation &operation) noexcept {

@@ -32,7 +32,6 @@ public:
 
     std::size_t pixel_count() const { return pixel_count_; }
 
-    // Leaves the sums undefined.
     void resize(std::size_t pixel_count) {
         words_.resize(pixel_count * words_per_pixel);
         pixel_count_ = pixel_count;
@@ -40,7 +39,6 @@ public:
 
     void clear() noexcept;
 
-    // One word of each pixel.
     std::span<std::uint32_t> plane(std::uint32_t part, std::size_t index) {
         return std::span(words_).subspan((std::size_t{part} * gpu::FILM_WORDS + index) * pixel_count_, pixel_count_);
     }
@@ -62,16 +60,17 @@ public:
 
     void copy(const PixelSums &from, std::size_t first, std::size_t count, std::size_t to_first) noexcept;
 
-    // Copies the pixels common to two rectangles of an image: `own` of this object and `of_from` of `from`.
+    // Copies the pixels that two rectangles of an image have in common: `own` of this object and `of_from` of `from`.
     void copy(const Rectangle &own, const PixelSums &from, const Rectangle &of_from) noexcept;
 
-    // Accepted and rejected samples of each part.
+    // Numbers of accepted and rejected samples in each part.
     PartCounts samples_of(std::size_t pixel) const;
 
     // Whether this many samples can have these sums.
     bool holds(const PartCounts &expected) const;
 
-    // Returns R, G and B of each pixel. `quantity` is a PT_QUANTITY_* of samples. `unit` is the radiance of one unit.
+    // R, G and B of each pixel. `quantity` is a PT_QUANTITY_* that comes from samples. `unit` is the radiance of one
+    // unit.
     std::vector<float> values(std::uint32_t quantity, double unit) const;
 
     bool operator==(const PixelSums &) const = default;
@@ -101,10 +100,10 @@ private:
 
     const PixelSums &sums_;
     int exponent_;
-    PartQuotients quotients_; // cached: most pixels have equal sample counts
+    PartQuotients quotients_; // cached, because most pixels have equal counts
 };
 
-// Throws PT_ERROR_INTERNAL if the counts differ, since a driver lost work.
+// Throws PT_ERROR_INTERNAL if the counts differ, which means that a driver lost work.
 void require_samples(const PartCounts &done, const PartCounts &expected);
 
 } // namespace pt

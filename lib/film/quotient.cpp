@@ -30,7 +30,7 @@ float Divisor::quotient(WideSum dividend) const {
     const std::uint64_t lower = high != 0 ? low : 0;
     const int zeros = std::countl_zero(upper);
     const std::uint64_t leading = upper << zeros | lower >> 1 >> (63 - zeros);
-    const auto estimate = static_cast<std::uint64_t>(WideSum{leading} * reciprocal_ >> 64); // at most 1 too small
+    const auto estimate = static_cast<std::uint64_t>(WideSum{leading} * reciprocal_ >> 64); // may be 1 too small
     const std::uint64_t quotient = estimate + (leading - estimate * normal_ >= normal_ ? 1 : 0);
     const std::uint64_t rest = (leading - quotient * normal_) | lower << zeros;
     const auto odd_if_inexact = static_cast<std::int64_t>(quotient | (rest != 0 ? 1 : 0));

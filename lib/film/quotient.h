@@ -1,4 +1,4 @@
-// Divides exact sums by sample counts, with the same bits as shaders/quotient.h but with faster 64-bit products.
+// Divides exact sums by sample counts. The bits are those of shaders/quotient.h, but 64-bit products are faster.
 #pragma once
 
 #include "shaders/quotient.h"
@@ -19,7 +19,7 @@ public:
 
 private:
     std::uint64_t normal_;     // the divisor times a power of two, in [2^31, 2^32)
-    std::uint64_t reciprocal_; // 2^64 / normal_, at most 1 too small
+    std::uint64_t reciprocal_; // 2^64 / normal_; may be 1 too small
     double factor_;
 };
 
@@ -30,13 +30,12 @@ public:
 
     bool are_of(std::uint32_t a, std::uint32_t b) const { return a == a_ && b == b_; }
 
-    // Rounds the mean once to nearest. Returns 0 without samples.
     float mean(WideSum sum_a, WideSum sum_b) const { return of_all_.quotient(sum_a + sum_b); }
 
-    // Requires samples in both parts. gpu::ErrorDivisor derives the standard error.
+    // Requires samples in both parts. gpu::ErrorDivisor makes the standard error from the difference.
     struct Difference {
         float standard_error;
-        float lesser; // smaller mean of the parts
+        float lesser; // the smaller of both parts' means
     };
     Difference difference(WideSum sum_a, WideSum sum_b) const;
 

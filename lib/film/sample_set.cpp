@@ -42,7 +42,7 @@ SampleRange SampleSet::hull() const {
     return empty() ? SampleRange{} : SampleRange{ranges_.front().first, ranges_.back().end};
 }
 
-// A single pass, since a film may have very many ranges.
+// Goes through the ranges once, because films may have very many.
 std::optional<SampleRange> SampleSet::overlap(const SampleSet &other) const {
     auto own = ranges_.begin();
     for (const SampleRange &range : other.ranges_) {

@@ -25,7 +25,6 @@ struct SampleRange {
 
 SampleRange hull_of(const SampleRange &a, const SampleRange &b);
 
-// Example: "[0, 64)".
 std::string text_of(const SampleRange &range);
 
 class SampleSet {
@@ -33,7 +32,6 @@ public:
     SampleSet() = default;
     explicit SampleSet(const SampleRange &range) { add(range); }
 
-    // The ranges ascend, and are neither empty nor adjacent.
     const std::vector<SampleRange> &ranges() const { return ranges_; }
 
     bool empty() const { return ranges_.empty(); }
@@ -44,7 +42,6 @@ public:
 
     std::optional<SampleRange> overlap(const SampleSet &other) const;
 
-    // Returns the first range of missing samples from an index on, or an empty range.
     SampleRange next_missing(std::uint64_t from) const;
 
     // The set must not have these samples yet.
@@ -65,17 +62,17 @@ static_assert(gpu::FILM_PARTS == 2);
 using PartCounts = std::array<std::uint64_t, gpu::FILM_PARTS>;
 
 // Returns the index with the most trailing zero bits among all that have samples on both sides, if it is a multiple of
-// 8. Otherwise returns the next multiple of 8 after the last sample, since fewer than 8 samples hardly show an error.
+// 8. Otherwise returns the next multiple of 8 after the last sample, because fewer than 8 samples hardly show an error.
 //
-// The index is unique, since an index with more zeros is between any two that have equally many. Each added film
-// therefore has the split of the sum or is on one side of it, so two parts are enough.
+// The index is unique: between any two indices with equally many zeros there is one with more. Each added film
+// therefore has the split of the sum, or is on one side of the split, so two parts are enough.
 //
 // The split of [0, 2^k) is 2^(k - 1). Both halves are among the best sets of low-discrepancy sequences.
 std::uint64_t split_of(const SampleRange &hull);
 
 PartCounts part_counts(const SampleSet &samples);
 
-// `before` is the hull of the earlier samples. `split` is the split after the sample is added.
+// `before` is the hull of the earlier samples. `split` is the split with the new sample.
 bool begins_part(const SampleRange &before, std::uint64_t split, std::uint64_t sample);
 
 } // namespace pt

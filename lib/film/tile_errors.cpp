@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t channel_count = 3;
 
-// The left neighbor, the pixel and the right neighbor of each pixel, sorted. Missing neighbors come first.
+// Each pixel with its left and right neighbor, sorted. Missing neighbors come first.
 using SortedRow = std::array<gpu::Sorted, tile_size>;
 
 SortedRow sorted_row(const TileValues &tile, std::size_t channel, std::size_t y) {
@@ -103,7 +103,6 @@ TileErrors tile_errors(const TileValues &tile) {
 
 namespace {
 
-// `rows` starts with the first row of the tile.
 TileErrors errors_of(const Rectangle &pixels, const SampleSet &samples, double unit, std::uint32_t film_width,
                      const PixelSums &rows) {
     TileValues tile{
@@ -121,7 +120,7 @@ TileErrors errors_of(const Rectangle &pixels, const SampleSet &samples, double u
 
 } // namespace
 
-// Reads only rows of tiles in which a tile has changed.
+// Reads only those rows of tiles in which a tile has changed.
 std::span<const TileErrors> FilmErrors::of(const TileSamples &samples, double unit, const ReadRows &read) {
     const TileGrid &grid = samples.grid();
     const bool is_known = !tiles_.empty() && samples_.grid() == grid;

@@ -1,5 +1,5 @@
-// Expected squared errors of a tile's pixels (shaders/pixel_error.h), as estimate.comp computes them on devices. A
-// tile's errors do not depend on other tiles.
+// Expected squared errors of a tile's pixels (shaders/pixel_error.h). Devices compute the same in estimate.comp. No
+// tile depends on other tiles.
 #pragma once
 
 #include "lib/film/pixel_sums.h"
@@ -26,13 +26,13 @@ using gpu::squared;
 struct TileValues {
     std::size_t width;
     std::size_t height;
-    double sample_count; // per pixel
+    double sample_count; // samples per pixel
     std::uint64_t rejected{};
     // Rows have tile_size values even in narrower tiles.
     std::array<std::array<PixelValue, 3>, tile_size * tile_size> pixels{};
 };
 
-// Expected squared errors, summed over channels, of values x with expected values r. Pixels outside the image have 0.
+// Expected squared errors of values x with expected values r, summed over channels. Pixels outside the image have 0.
 struct PixelErrors {
     using Numbers = std::array<double, tile_size * tile_size>;
 
@@ -41,7 +41,8 @@ struct PixelErrors {
     Numbers met_once{};        // relative squares of light that one part hit, with r from the other part
     Numbers as_lamps{};        // relative squares of light that one part hit, with r = x
     Numbers met_again{};       // number of bright values in both parts
-    Numbers unseen{};          // expected relative squares from light that no sample of the pixel hit, by its neighbors
+    Numbers unseen{};          // expected relative squares from light that no sample of the pixel hit; its neighbors
+                               // show this light
 };
 
 PixelErrors pixel_errors(const TileValues &tile);
@@ -49,15 +50,14 @@ PixelErrors pixel_errors(const TileValues &tile);
 // Sums of squared errors, and sums for their variance.
 struct ErrorSquares {
     double sum = 0.0;              // infinite if unknown
-    double of_pixels = 0.0;        // sum of the squares of each pixel's sum
-    double of_tiles = 0.0;         // sum of the squares of each tile's sum
+    double of_pixels = 0.0;        // sum of each pixel's sum squared
+    double of_tiles = 0.0;         // sum of each tile's sum squared
     double times_tile_sizes = 0.0; // sum of each tile's sum times its number of values
 };
 
-// The sums of PixelErrors over one or several tiles.
 struct TileErrors {
-    double value_count = 0.0;           // pixels times channels
-    double squares_of_tile_sizes = 0.0; // sum of the squares of each tile's number of values
+    double value_count = 0.0;
+    double squares_of_tile_sizes = 0.0; // sum of each tile's squared number of values
     ErrorSquares square;
     ErrorSquares relative_square;
     ErrorSquares met_once;
@@ -66,7 +66,7 @@ struct TileErrors {
     double unseen = 0.0;
     std::uint64_t rejected = 0;
 
-    // The relative squares as estimated from this tile alone.
+    // The relative squares without use of other tiles.
     double own_square() const { return relative_square.sum + as_lamps.sum + unseen; }
 };
 
@@ -80,7 +80,6 @@ public:
 
     std::span<const TileErrors> of(const TileSamples &samples, double unit, const ReadRows &read);
 
-    // Call when the film is replaced.
     void forget() noexcept { tiles_.clear(); }
 
 private:

@@ -1,4 +1,4 @@
-// Squares of TILE_SIZE pixels, row by row. Edge tiles may be smaller.
+// Square tiles of TILE_SIZE pixels, row by row. Tiles at the edges may be smaller.
 #pragma once
 
 #include "lib/film/film_header.h"
@@ -11,7 +11,7 @@
 namespace pt {
 
 struct TileGrid {
-    std::uint32_t width = 0; // pixels
+    std::uint32_t width = 0;
     std::uint32_t height = 0;
 
     std::uint32_t columns() const { return (width + gpu::TILE_SIZE - 1) / gpu::TILE_SIZE; }
@@ -28,7 +28,8 @@ struct TileGrid {
         return std::size_t{y / gpu::TILE_SIZE} * columns() + x / gpu::TILE_SIZE;
     }
 
-    // Calls function(first, count, tile) for runs of pixels within a row of a tile. `first` counts from first_pixel.
+    // Calls function(first, count, tile) for each run of pixels within a row of a tile. `first` counts from
+    // first_pixel.
     template <typename Function>
     void for_each_run(std::uint32_t first_pixel, std::size_t pixel_count, const Function &function) const {
         for (std::size_t done = 0; done < pixel_count;) {

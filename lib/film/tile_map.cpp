@@ -26,7 +26,7 @@ struct RangesBefore {
     static std::pair<std::uint64_t, std::uint64_t> ends(const SampleRange &range) { return {range.first, range.end}; }
 };
 
-// Returns the first tile with equal samples for each tile, since sets of many ranges are slow to compare.
+// Maps each tile to the first tile with equal samples, because sets of many ranges are slow to compare.
 std::vector<std::size_t> first_equals(const std::vector<FilmTile> &tiles) {
     std::map<const SampleSet *, std::size_t, RangesBefore> known;
     std::vector<std::size_t> firsts;
@@ -36,7 +36,6 @@ std::vector<std::size_t> first_equals(const std::vector<FilmTile> &tiles) {
     return firsts;
 }
 
-// The tile of a run is the first tile with its samples.
 std::vector<TileMap::Span> runs_of(const TileMap::Band &band, const std::vector<std::size_t> &firsts) {
     std::vector<TileMap::Span> runs;
     for (const TileMap::Span &span : band.spans) {
@@ -76,7 +75,7 @@ Rectangle shifted(const Rectangle &pixels, const Rectangle &origin) {
     return {pixels.x + origin.x, pixels.y + origin.y, pixels.width, pixels.height};
 }
 
-// Returns an empty set if no tile has the pixels, and no value if the pixels have different samples.
+// Returns an empty set if no tile has the pixels. Returns no value if pixels have different samples.
 std::optional<SampleSet> samples_of(const TileMap &map, const std::vector<FilmTile> &tiles, const Rectangle &pixels) {
     const SampleSet none;
     const auto samples_in = [&](const TileMap::Piece &piece) -> const SampleSet & {
@@ -166,7 +165,7 @@ std::vector<FilmTile> canonical_tiles(const std::vector<FilmTile> &tiles) {
     const std::vector<std::size_t> firsts = first_equals(tiles);
     std::vector<FilmTile> all;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::size_t, std::size_t>>
-        above; // run -> samples, tile
+        above; // maps runs to samples and tile
     std::uint32_t bottom = 0;
     for (const TileMap map(tiles); const TileMap::Band &band : map.bands()) {
         std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::size_t, std::size_t>> here;

@@ -26,20 +26,18 @@ public:
         std::vector<Span> spans;
     };
 
-    // Pixels that are in one tile or outside all tiles.
     struct Piece {
         Rectangle pixels;
         std::optional<std::size_t> tile;
     };
 
-    // Throws PT_ERROR_INCOMPATIBLE if tiles overlap. A tile is in at most as many bands as it has rows, so a map needs
-    // no more memory than the sums of its film.
+    // Throws PT_ERROR_INCOMPATIBLE if tiles overlap. A tile is in at most as many bands as it has rows, so the map is
+    // no larger than the film's sums.
     explicit TileMap(const std::vector<FilmTile> &tiles);
 
     // The bands from top to bottom. Rows without tiles are in no band.
     const std::vector<Band> &bands() const { return bands_; }
 
-    // NULL if no tile has the pixel.
     const Span *find(std::uint32_t x, std::uint32_t y) const;
 
     std::vector<Piece> cut(const Rectangle &pixels) const;
@@ -48,16 +46,15 @@ private:
     std::vector<Band> bands_;
 };
 
-// Requires at least one tile.
 Rectangle bounds_of(const std::vector<FilmTile> &tiles);
 
-// Joins neighbors in a row with equal samples, then equal runs in adjacent rows. Sorts tiles from top to bottom, then
-// from left to right.
+// Joins neighbors in a row that have equal samples, then equal runs in adjacent rows. Sorts tiles from top to bottom,
+// then from left to right.
 std::vector<FilmTile> canonical_tiles(const std::vector<FilmTile> &tiles);
 
 std::vector<FilmTile> film_tiles(const TileSamples &samples, const Rectangle &pixels);
 
-// Returns no value if pixels of a tile of the TileGrid have different samples.
+// Returns no value if a tile of the TileGrid has pixels with different samples.
 std::optional<TileSamples> tile_samples(const std::vector<FilmTile> &tiles, const Rectangle &pixels);
 
 } // namespace pt

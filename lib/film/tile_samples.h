@@ -1,4 +1,3 @@
-// The samples of each tile of a film. Tiles with equal samples share a set.
 #pragma once
 
 #include "lib/film/sample_set.h"
@@ -21,14 +20,14 @@ public:
     bool even() const { return set_of_.empty(); }
     const SampleSet &of(std::size_t tile) const { return even() ? sets_.front() : sets_[set_of_[tile]]; }
 
-    // All sets are different. Unused sets may remain.
+    // No two sets are equal. Unused sets may remain.
     const std::vector<SampleSet> &sets() const { return sets_; }
     std::uint32_t set_of(std::size_t tile) const { return even() ? 0 : set_of_[tile]; }
 
     bool empty() const;
     std::uint64_t least() const; // minimum per pixel
     std::uint64_t most() const;
-    std::uint64_t total() const; // summed over pixels
+    std::uint64_t total() const; // sum over pixels
 
     // The tiles must ascend, and must not have these samples yet.
     void add(std::span<const std::uint32_t> tiles, const SampleRange &range);
@@ -37,10 +36,9 @@ public:
     // first_row must begin a row of tiles.
     TileSamples rows(std::uint32_t first_row, std::uint32_t row_count) const;
 
-    // Allocates no memory.
     void clear() noexcept;
 
-    // Removes unused sets and, if all tiles have the same set, the list of tiles.
+    // Drops unused sets. If all tiles have the same set, also drops the list of tiles.
     void tidy();
 
 private:
@@ -49,7 +47,7 @@ private:
 
     TileGrid grid_;
     std::vector<SampleSet> sets_{SampleSet()};
-    std::vector<std::uint32_t> set_of_; // by tile; empty if all tiles have sets_[0]
+    std::vector<std::uint32_t> set_of_; // index in sets_ by tile; empty if all tiles have sets_[0]
 };
 
 } // namespace pt

@@ -1,5 +1,5 @@
 // Takes samples into the films of devices, in slices of tiles. Every begun sample is completed. Only run() starts
-// slices, but devices also work between calls.
+// slices. Devices go on working between calls.
 #pragma once
 
 #include "lib/film/tile_samples.h"
@@ -20,17 +20,17 @@
 namespace pt {
 
 struct Progress {
-    pt_progress_fn function; // may be NULL
+    pt_progress_fn function;
     void *user;
 };
 
-// All threads may use a Cancellation at any time, but no other part of a context.
+// Other threads may use a context's Cancellation at any time, but nothing else of the context.
 class Cancellation {
 public:
     void begin() noexcept { state_ = State::UnderWay; }
     void end() noexcept { state_ = State::Idle; }
 
-    // Returns false if nothing is under way.
+    // Returns false if nothing is running.
     bool ask() noexcept {
         State state = State::UnderWay;
         return state_.compare_exchange_strong(state, State::Asked) || state == State::Asked;
@@ -43,7 +43,6 @@ private:
     std::atomic<State> state_{State::Idle};
 };
 
-// Totals of finished submissions.
 struct DeviceWork {
     std::uint64_t submit_count = 0;
     double seconds = 0.0;
@@ -53,41 +52,41 @@ class Accumulation {
 public:
     using Clock = std::chrono::steady_clock;
 
-    // `samples` are already in the films. `wanted` is the maximum of tiles times samples.
+    // `samples` are already in the films. `wanted` is the largest number of tiles times samples.
     Accumulation(const RenderDevices &devices, TileSamples samples, std::uint32_t first_sample, std::uint64_t wanted,
                  const Progress &progress, const Cancellation &cancellation, DeviceWork &work);
     Accumulation(const Accumulation &) = delete;
     Accumulation &operator=(const Accumulation &) = delete;
 
-    // Returns false if all tiles have reached the goal. `unit_of_error` is the films' unit, if their error will be read
-    // afterwards. Requires that nothing is under way.
+    // Returns false if all tiles have reached the goal. `unit_of_error` is the films' unit if the films' error will be
+    // read afterwards. Nothing may be running.
     bool set_goal(std::span<const std::uint32_t> tiles, const TileTasks::Goal &goal);
     bool set_goal_of_all(const TileTasks::Goal &goal) { return set_goal(all_tiles_, goal); }
     bool set_goal_of_all(std::uint64_t goal, std::optional<double> unit_of_error);
 
-    // Returns false if samples are still under way at `until`. Then call it again.
+    // Returns false if samples are still running at `until`, and must then be called again.
     bool run(Clock::time_point until);
 
     bool is_under_way() const;
 
-    // Starts nothing new, except to complete begun samples.
+    // From now on only begun samples are completed.
     void stop() { stopped_ = true; }
     bool stopped() const { return stopped_; }
 
-    // Completes begun samples after an exception. Returns false if this also fails. Then the films are void, and
-    // nothing is under way.
+    // Completes begun samples after an exception. If this also fails, returns false, and the films are void. Nothing is
+    // running afterwards.
     bool complete() noexcept;
 
     double fraction() const;
 
-    // Requires that nothing is under way.
+    // Nothing may be running.
     const TileSamples &samples() const { return samples_; }
 
-    // Whether the last submission also estimated the error, which requires a single device.
+    // Whether the last submission also estimated the error. This requires a single device.
     bool has_estimate() const { return has_estimate_; }
 
 private:
-    // A slice that starts on one device after another. If one fails, complete() continues from there.
+    // A slice that starts on one device after another. If one fails, complete() continues there.
     struct Begun {
         TileSlice slice;
         const RenderDevice *taker;

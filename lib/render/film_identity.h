@@ -12,11 +12,11 @@
 
 namespace pt {
 
-// Must rise with any change of the bits of samples, or of the samples that a target error takes.
+// Must be raised with any change of the bits of samples, or of the number of samples for a target error.
 inline constexpr std::uint32_t estimator_version = 8;
 
-// The identity contains everything that decides the bits of samples. The identity leaves out rows, ranges, submissions,
-// the number of equal devices, and kernels with the scene as constants (trace_pipelines.h).
+// Everything that decides the bits of samples. The identity excludes rows, ranges, submissions, the number of equal
+// devices, and kernels with the scene as constants (trace_pipelines.h).
 FilmIdentity identity_of(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings,
                          const KernelCode &code, const std::vector<pt_device_info> &devices);
 

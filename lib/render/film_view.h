@@ -1,5 +1,5 @@
-// Computes the image of a context's films, and its error, on the first device if its policy says so, otherwise on the
-// host.
+// Computes the image of a context's films and its error. The first device does this if its policy says so, otherwise
+// the host.
 #pragma once
 
 #include "lib/film/error_estimate.h"
@@ -35,7 +35,7 @@ public:
     std::optional<std::span<std::byte>> map(const ImageQuery &query);
 
     // Adds the errors of all tiles to the estimator, and fills query.by_tile. `is_recorded` means that the last
-    // submission of samples has computed them. Throws PT_ERROR_INTERNAL if a driver lost work.
+    // submission of samples has computed the errors. Throws PT_ERROR_INTERNAL if a driver lost work.
     void estimate(ErrorEstimator &estimator, const ErrorQuery &query, bool is_recorded);
 
     // Must be called when the samples have changed.
@@ -58,7 +58,6 @@ private:
         std::optional<ErrorReader> error;
     };
 
-    // Rows that are summed together on the first device.
     struct Band {
         std::uint32_t first_row;
         std::uint32_t row_count;
@@ -75,7 +74,7 @@ private:
 
     const RenderDevices &devices_;
     FilmErrors errors_;
-    std::list<Sum> sums_; // at most two sizes
+    std::list<Sum> sums_; // for at most two sizes
 };
 
 } // namespace pt

@@ -31,7 +31,7 @@ bool check_extent(const Subject &image, const char *name, std::uint32_t extent, 
     return within && extent >= 1;
 }
 
-// Object numbers are the only integers, and need an integer format.
+// Only object numbers are integers, and these need an integer format.
 void check_quantity(const Subject &image, std::uint32_t quantity, std::uint32_t format, ImageSource of) {
     const bool is_known = quantity <= gpu::LAST_QUANTITY;
     image.require(is_known, "quantity", quantity, "must be a PT_QUANTITY_* of pt.h");
@@ -45,7 +45,7 @@ void check_quantity(const Subject &image, std::uint32_t quantity, std::uint32_t 
                                                  : "PT_FORMAT_R32UI is for PT_QUANTITY_OBJECT alone");
 }
 
-// `alignment` of rows is in bytes. `offset` is the position of the image in its memory.
+// `alignment` of rows is in bytes. `offset` is the image's position in its memory.
 template <typename Source>
 ImageLayout checked_layout(const Subject &image, const Source &source, std::uint32_t alignment, std::uint64_t offset,
                            std::uint32_t width, std::uint32_t height, ImageSource of) {
@@ -56,7 +56,7 @@ ImageLayout checked_layout(const Subject &image, const Source &source, std::uint
     const bool columns_fit = check_extent(image, "width", pixels.width, {"x", "+ width"}, pixels.x, width);
     const bool rows_fit = check_extent(image, "height", pixels.height, {"y", "+ height"}, pixels.y, height);
     if (!columns_fit || !rows_fit || source.format >= format_count)
-        return layout; // the size is unknown
+        return layout; // The size is unknown.
 
     const std::string width_text = "width * " + number_text(pixel_bytes(source.format));
     const std::uint64_t width_bytes = std::uint64_t{pixels.width} * pixel_bytes(source.format);

@@ -13,10 +13,10 @@
 namespace pt {
 
 struct ImageLayout {
-    Rectangle pixels;        // not empty
+    Rectangle pixels;
     std::uint32_t quantity;  // PT_QUANTITY_*
     std::uint32_t format;    // PT_FORMAT_*
-    std::uint64_t row_bytes; // distance between rows
+    std::uint64_t row_bytes; // from row to row
 };
 
 struct Image {
@@ -32,13 +32,12 @@ struct BufferImage {
     std::uint64_t signal_semaphore; // VkSemaphore, or 0
 };
 
-// A context has all quantities. Films and lent buffers have only quantities of samples.
+// A context has all quantities. Films and lent buffers only have those that come from samples.
 enum class ImageSource { Context, Samples };
 
-// source.struct_size must be checked already. width and height give the rendered pixels. Throws
-// PT_ERROR_INVALID_ARGUMENT that names all broken rules.
+// source.struct_size must be checked already. width and height are the rendered pixels'. Throws
+// PT_ERROR_INVALID_ARGUMENT with all broken rules.
 Image validated_image(const pt_image &source, std::uint32_t width, std::uint32_t height, ImageSource of);
-// For an image without gaps in the library's memory.
 ImageLayout validated_mapped_layout(const pt_image &source, std::uint32_t width, std::uint32_t height);
 BufferImage validated_image(const pt_buffer_image &source, std::uint32_t width, std::uint32_t height);
 
@@ -49,7 +48,7 @@ public:
     void put(std::span<const std::byte> pixels);
     void put(std::span<const float> values);
 
-    // Takes consecutive pixels of an image of this width, and keeps those within the rectangle.
+    // Takes consecutive pixels of an image of this width. Keeps those within the rectangle.
     void put_part(std::uint64_t first_pixel, std::uint32_t width, std::span<const float> values);
 
 private:

@@ -13,8 +13,8 @@ namespace pt {
 
 namespace {
 
-// One of n + 1 uniform directions is within the half-width of a lobe of glossiness n. Only some estimators find lobes
-// by chance.
+// A lobe of glossiness n has a half-width that one of n + 1 uniform directions is within. Only some estimators find
+// lobes by chance.
 double smallest_lobe_share(const PreparedScene &scene, std::uint32_t estimator) {
     double share = 1.0;
     if (estimator == PT_ESTIMATOR_UNIFORM || estimator == PT_ESTIMATOR_COSINE)
@@ -64,7 +64,7 @@ bool may_miss_lamps(const PreparedScene &scene, const Camera &camera, const Rend
     return static_cast<double>(samples) * share < enough_hits;
 }
 
-// An estimate from fewer hits is uncertain. Calibrated.
+// Estimates from fewer hits are uncertain. Calibrated.
 constexpr double few_hits = 6.0;
 
 void take_in_unmet_lamps(ErrorEstimate &error, const UnmetSquares &unmet, double value_count) {

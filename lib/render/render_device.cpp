@@ -11,7 +11,7 @@ namespace pt {
 
 namespace {
 
-// The fraction of a measured rate that is assumed for another kernel.
+// The fraction of a measured rate that another kernel is assumed to have.
 constexpr double share_assumed_of_learnt = 0.125;
 
 } // namespace
@@ -33,7 +33,7 @@ RenderDevice::~RenderDevice() {
         device_.abandon();
 }
 
-// The present film does not count, since it is freed before the new film is touched.
+// The present film does not count, because it is freed before the new one is touched.
 DeviceFilm RenderDevice::make_film(const RenderSettings &settings) {
     const std::uint64_t bytes = std::uint64_t{settings.width} * settings.row_count * DeviceFilm::bytes_per_pixel;
     if (!device_.has_memory(bytes))
@@ -102,7 +102,7 @@ void RenderDevice::save_kernels() noexcept {
         device_.pipeline_cache().save(device_.log());
 }
 
-// A kernel that is kept keeps its schedule, since its samples cost about the same.
+// A kernel that stays keeps its schedule, because samples cost about the same.
 void RenderDevice::prepare(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings) {
     pipelines_->build_own(TracePipelines::OwnKernels::when_they_pay);
     if (kernel_ && &kernel_->scene() == scene.get())
@@ -181,7 +181,7 @@ BufferWriter &RenderDevice::buffer_writer() {
     return *buffer_writer_;
 }
 
-// The path tracer's kernel owns the buffers, and finds out whether the scene is too large for the device.
+// The path tracer's kernel owns the buffers, and knows whether the device is too small for the scene.
 void RenderDevice::read_first_hits(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings,
                                    const FirstHitQuery &query, const FirstHits::Receive &receive) {
     prepare(scene, settings);
@@ -256,7 +256,7 @@ void RenderDevice::drain() noexcept {
         while (!is_idle())
             finish();
     } catch (...) {
-        under_way_.clear(); // the device is lost
+        under_way_.clear();
     }
 }
 

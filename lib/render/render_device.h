@@ -1,4 +1,4 @@
-// One device of a context. Any device may take any sample, since films are exact sums.
+// One device of a context. Any device may take any samples, because films are exact sums.
 #pragma once
 
 #include "lib/kernel/buffer_writer.h"
@@ -27,11 +27,11 @@ namespace pt {
 
 class RenderDevice {
 public:
-    // `target_seconds` is the aim for a slice. vulkan::Device describes `caller`.
+    // A slice should take `target_seconds`. vulkan::Device describes `caller`.
     RenderDevice(vulkan::Instance &instance, const vk::raii::PhysicalDevice &physical_device,
                  const vulkan::DevicePolicy &policy, const KernelCode &code, double target_seconds,
                  const vulkan::CallerVulkan *caller = nullptr);
-    // Waits for work under way, within the device's patience.
+    // Waits for running work, within the device's patience.
     ~RenderDevice();
     RenderDevice(const RenderDevice &) = delete;
     RenderDevice &operator=(const RenderDevice &) = delete;
@@ -39,27 +39,25 @@ public:
     vulkan::Device &device() { return device_; }
     const vulkan::Device &device() const { return device_; }
 
-    // Requires that no work is under way.
+    // No work may be running.
     DeviceFilm &film();
 
     ImageReader &image_reader();
     BufferWriter &buffer_writer();
     ErrorReader &error_reader();
 
-    // Requires that no work is under way.
+    // No work may be running.
     void read_first_hits(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings,
                          const FirstHitQuery &query, const FirstHits::Receive &receive);
 
-    // Requires that no work is under way.
+    // No work may be running.
     void read_coverage(const std::shared_ptr<const GpuScene> &scene, const CoverageQuery &query,
                        const Coverage::Receive &receive);
 
-    // For films other than the device's own.
     ResolvePipelines &resolve_pipelines();
     const vulkan::ComputePipeline &estimate_pipeline();
     const vulkan::ComputePipeline &add_pipeline();
 
-    // Exchange built kernels with the caller's store.
     void keep_kernels(const vulkan::KernelStore &store);
     void save_kernels() noexcept;
 
@@ -67,15 +65,13 @@ public:
     DeviceFilm make_film(const RenderSettings &settings);
     void set_film(DeviceFilm film);
 
-    // The film is void from now on.
     void discard_samples() noexcept;
 
-    // Makes the pipelines that the present kernel needs, from other code. Throws PT_ERROR_SHADER if the driver refuses
-    // the code.
+    // Makes the pipelines of the present kernel from other code. Throws PT_ERROR_SHADER if the driver refuses the code.
     std::unique_ptr<TracePipelines> make_pipelines(const KernelCode &code);
     void set_pipelines(const KernelCode &code, std::unique_ptr<TracePipelines> pipelines) noexcept;
 
-    // Makes a kernel for this scene, or shows the scene to the present kernel. Requires a film and no work under way.
+    // Makes a kernel for this scene, or shows the scene to the present kernel. Needs a film. No work may be running.
     void prepare(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings);
 
     // Also builds everything that the kernel will need.
@@ -91,17 +87,17 @@ public:
 
     bool estimates_behind() const { return device_.policy().resolve_on_device && film_->strips().size() == 1; }
 
-    // Requires has_room(). With `estimate`, which requires estimates_behind(), also estimates the error for
-    // error_reader().collect().
+    // Requires has_room(). With `estimate`, also estimates the error for error_reader().collect(). This requires
+    // estimates_behind().
     void start(const TileSlice &slice, const ErrorQuery *estimate = nullptr);
 
-    // Returns whether finish() would return at once. Requires work under way.
+    // Returns whether finish() would return at once. Work must be running.
     bool is_done(vulkan::Device::Clock::time_point until) { return device_.is_done(under_way_.front().ticket, until); }
 
     // Notes slices that have ended, so that their times are measured.
     void look() { device_.look(); }
 
-    // Waits for the oldest slice. `seconds` is estimated if its end was not noticed in time.
+    // Waits for the oldest slice. If its end was not noticed in time, `seconds` is estimated.
     struct Finished {
         std::uint64_t tile_samples; // 0 if another device took the samples
         double seconds;
@@ -125,7 +121,7 @@ private:
     KernelCode code_;
     std::unique_ptr<TracePipelines> pipelines_; // never NULL
     double target_seconds_;
-    double tests_per_second_; // before the first measurement
+    double tests_per_second_; // assumed until the first measurement
     std::optional<ResolvePipelines> resolve_;
     std::optional<vulkan::ComputePipeline> estimate_;
     std::optional<vulkan::ComputePipeline> add_;

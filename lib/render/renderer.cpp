@@ -1,4 +1,3 @@
-// renderer_samples.cpp takes samples, and renderer_output.cpp reads them.
 #include "lib/render/renderer.h"
 
 #include "lib/base/error.h"
@@ -26,7 +25,7 @@ std::vector<pt_device_info> list_devices() {
     return describe_all(vulkan::Instance(Log{}, false));
 }
 
-// The code is read first, so that errors in it touch no device.
+// Reads the code first, so that errors in it touch no device.
 Renderer::Renderer(const CreateSettings &settings) :
     source_(settings.shader_directory),
     code_(source_.read()),

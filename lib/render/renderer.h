@@ -38,15 +38,15 @@
 
 namespace pt {
 
-// A valid pt_create_info with defaults applied.
+// A checked pt_create_info with defaults applied.
 struct CreateSettings {
     bool validation = false;
-    bool scene_kernels = true;    // if faster
-    std::string device;           // empty: the best
-    std::string shader_directory; // empty: built in
+    bool scene_kernels = true;    // where they are faster
+    std::string device;           // empty for the best device
+    std::string shader_directory; // empty for built-in kernels
     Log log;
     std::uint32_t submit_milliseconds = 50;
-    std::optional<vulkan::CallerVulkan> vulkan; // none: an own device
+    std::optional<vulkan::CallerVulkan> vulkan; // none if the library makes its own device
     vulkan::KernelStore kernel_store;
     std::uint32_t devices_of_each = 1;          // for tests
     bool like_gpus = false;                     // for tests on CPUs
@@ -56,8 +56,8 @@ struct CreateSettings {
 
 std::vector<pt_device_info> list_devices();
 
-// Methods throw pt::Error. A method that fails changes nothing, except that a lost device stays lost and whole samples
-// are kept. While samples are under way, only poll(), cancel() and const methods may be called.
+// Methods throw pt::Error. A method that fails changes nothing, except that a lost device stays lost and complete
+// samples are kept. While samples are running, only poll(), cancel() and const methods may be called.
 class Renderer {
 public:
     explicit Renderer(const CreateSettings &settings);
@@ -81,24 +81,24 @@ public:
     // If a driver refuses the code, no device uses it.
     void set_code(const KernelCode &code);
 
-    // Builds the kernels of accumulate().
+    // Builds the kernels that accumulate() needs.
     void prepare();
 
     // Returns PT_OK, PT_CANCELLED or PT_TARGET_REACHED.
     pt_result accumulate(const pt_accumulate_info &wanted);
 
-    // Does not wait. Returns PT_PENDING if samples are under way, or PT_TARGET_REACHED.
+    // Does not wait. Returns PT_PENDING if samples are running, or PT_TARGET_REACHED.
     pt_result start(const pt_accumulate_info &wanted);
 
     struct Advance {
-        pt_result result; // PT_PENDING while samples are under way
-        double fraction;  // of the samples
+        pt_result result; // PT_PENDING while samples are running
+        double fraction;  // fraction of the samples
     };
 
-    // Collects finished samples and starts more, for at most this time. After an exception no samples are under way.
+    // Collects finished samples and starts more, for at most this time. After an exception no samples are running.
     Advance poll(std::uint64_t nanoseconds);
 
-    // Starts no more samples. poll() returns when begun samples have ended. Returns false if none are under way.
+    // Starts no more samples. poll() returns when begun samples have ended. Returns false if none are running.
     // Thread-safe.
     bool cancel() noexcept { return cancellation_.ask(); }
     static constexpr const char *nothing_under_way = "no samples are under way: call pt_start first";
@@ -112,26 +112,26 @@ public:
     std::span<std::byte> map(const ImageLayout &layout);
 
     FilmHeader film_header();
-    void save_film(const FilmHeader &header, std::span<std::byte> bytes) const; // FilmLayout's size
+    void save_film(const FilmHeader &header, std::span<std::byte> bytes) const; // `bytes` has FilmLayout's size
     void add_film(std::span<const std::byte> bytes);
 
     pt_stats stats();
 
-    // Describes the visible scene (displacement.h). May be NULL. Valid until the next call.
+    // A statement about the visible scene (displacement.h), or NULL. Valid until the next call.
     const BrokenRule *warning();
 
-    // Includes lamps in view that samples have hardly hit.
+    // Includes the error from lamps in view that few samples have hit.
     ErrorEstimate error_with_lamps();
 
     std::vector<pt_function_accuracy> accuracy();
 
 private:
     struct Job {
-        double target_error; // relative; 0: none
+        double target_error; // relative; 0 for none
         MostSamples counts;
-        std::uint64_t together_to;        // tiles are equal up to this sample count
-        bool is_together;                 // while below together_to
-        std::vector<std::uint64_t> goals; // by tile; used without error checks
+        std::uint64_t together_to;        // all tiles are equal up to this count
+        bool is_together;                 // true below together_to
+        std::vector<std::uint64_t> goals; // by tile, where no error is checked
         Accumulation accumulation;
     };
 
@@ -177,20 +177,20 @@ private:
     FilmView view_{devices_};
     std::optional<PreparedScene> scene_;
     std::optional<Camera> camera_;
-    std::optional<RenderSettings> settings_;    // if set, the devices have films
+    std::optional<RenderSettings> settings_;    // devices have films if this is set
     std::shared_ptr<const GpuScene> gpu_scene_; // NULL after a change
     TileSamples samples_;
     AdaptiveRound round_;
-    std::optional<ErrorEstimate> error_; // computed on demand
+    std::optional<ErrorEstimate> error_;
     std::optional<std::uint64_t> rejected_samples_;
     std::vector<std::uint64_t> samples_for_lamps_;
     std::vector<double> tile_squares_;
     std::vector<std::byte> mapped_image_;
-    std::optional<std::vector<LampPiece>> small_lamps_; // computed on demand
+    std::optional<std::vector<LampPiece>> small_lamps_;
     std::optional<BrokenRule> warning_;
     DeviceWork work_;
     Cancellation cancellation_;
-    std::unique_ptr<Job> job_; // while under way
+    std::unique_ptr<Job> job_; // NULL if nothing is running
 };
 
 } // namespace pt

@@ -20,7 +20,7 @@ namespace pt {
 
 namespace {
 
-// Requires is_of_first_hits(quantity). Translates the kernel's surface numbers to the caller's.
+// `quantity` must satisfy is_of_first_hits(). Translates the kernel's surface numbers to the caller's.
 void read_first_hits(const Image &image, const RenderSettings &settings, const std::shared_ptr<const GpuScene> &scene,
                      RenderDevice &device) {
     FirstHitQuery query{image.layout.pixels, image.layout.quantity, image.layout.format};
@@ -39,7 +39,7 @@ void read_first_hits(const Image &image, const RenderSettings &settings, const s
     });
 }
 
-// Quotients are correctly rounded, unless they are within 2^-53 of the middle of two floats.
+// Quotients are correctly rounded, except within 2^-53 of the middle between two floats.
 void read_coverage(const Image &image, const TileSamples &samples, const RenderSettings &settings,
                    const std::shared_ptr<const GpuScene> &scene, RenderDevice &device) {
     const Rectangle &pixels = image.layout.pixels;
@@ -109,7 +109,6 @@ const std::vector<LampPiece> &Renderer::small_lamps() {
     return *small_lamps_;
 }
 
-// Returns the samples per pixel that each tile needs.
 const std::vector<std::uint64_t> &Renderer::samples_for_lamps() {
     if (samples_for_lamps_.empty()) {
         const TileGrid &grid = samples_.grid();
@@ -151,7 +150,7 @@ void Renderer::readback(const Image &image) {
     const bool is_of_hits = is_of_first_hits(image.layout.quantity);
     if (!is_of_hits)
         require_samples();
-    if (is_of_hits) // one device is enough for few rays
+    if (is_of_hits) // One device is enough for few rays.
         read_first_hits(image, *settings_, gpu_scene_of_settings(), *devices_.front());
     else if (image.layout.quantity == PT_QUANTITY_COVERAGE)
         read_coverage(image, samples_, *settings_, gpu_scene_of_settings(), *devices_.front());
@@ -159,7 +158,7 @@ void Renderer::readback(const Image &image) {
         view_.read(image, query(image.layout), samples_);
 }
 
-// The host makes the image if no device makes it in memory that the host reads.
+// If no device makes the image in memory that the host reads, the host makes it.
 std::span<std::byte> Renderer::map(const ImageLayout &layout) {
     require_settings();
     if (layout.quantity <= PT_QUANTITY_SAMPLE_COUNT) {
@@ -216,7 +215,6 @@ void Renderer::save_film(const FilmHeader &header, std::span<std::byte> bytes) c
     save(FilmView::films(devices_), samples_, header, pixels(), bytes);
 }
 
-// Puts all samples into the first device's film.
 void Renderer::add_film(std::span<const std::byte> bytes) {
     require_settings();
     const FilmReader film(bytes);

@@ -1,4 +1,3 @@
-// Moves films between devices and bytes.
 #pragma once
 
 #include "lib/film/film_bytes.h"
@@ -11,8 +10,8 @@
 
 namespace pt {
 
-// Writes the sum of films of one size into memory of FilmLayout's size. Together the films have `samples` and cover
-// `pixels` of the image. The header may have fewer pixels.
+// Writes the sum of films of one size into memory of FilmLayout's size. `samples` are in all films together, which
+// cover `pixels` of the image. The header may have fewer pixels.
 void save(std::span<DeviceFilm *const> films, const TileSamples &samples, const FilmHeader &header,
           const Rectangle &pixels, std::span<std::byte> bytes);
 
@@ -20,7 +19,7 @@ void save(std::span<DeviceFilm *const> films, const TileSamples &samples, const 
 // pixels, or different samples within a tile.
 TileSamples samples_of_film(const FilmHeader &film, const Rectangle &pixels);
 
-// Throws PT_ERROR_INCOMPATIBLE if a tile has a common sample in both.
+// Throws PT_ERROR_INCOMPATIBLE if both have a common sample in a tile.
 TileSamples united(const TileSamples &present, const TileSamples &added);
 
 // Adds a saved film and the other films to films[0]. Throws PT_ERROR_INCOMPATIBLE and changes nothing if the saved sums

@@ -9,25 +9,24 @@ namespace pt {
 struct ScheduleLimits {
     double target_seconds = 0.05;
     double first_slice_paths = 16384.0;
-    std::uint32_t max_samples = 1; // per submission
+    std::uint32_t max_samples = 1;
 };
 
 class Schedule {
 public:
     explicit Schedule(const ScheduleLimits &limits);
 
-    // Returns the samples of each tile in one submission, from 1 to `most`.
     std::uint64_t samples(std::size_t tile_count, std::uint64_t most) const;
 
-    // Returns how many of the remaining tiles the next submission takes, at least 1.
+    // How many of the remaining tiles the next submission takes, at least 1.
     std::size_t tiles(std::size_t left, std::uint64_t sample_count) const;
 
-    // The paths that should take the time of one submission.
+    // Number of paths that should take the time of one submission.
     double budget() const { return budget_; }
 
     double expected_seconds(double paths) const;
 
-    // Learns from a measured time. Ignores negative times and NaN.
+    // Ignores negative times and NaN.
     void measured(double paths, double seconds);
 
 private:
@@ -35,7 +34,7 @@ private:
     double budget_;
 };
 
-// Counts every tile as whole.
+// Counts incomplete tiles as complete.
 double paths_of(std::size_t tile_count, std::uint64_t sample_count);
 
 } // namespace pt

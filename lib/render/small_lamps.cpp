@@ -12,7 +12,7 @@ namespace pt {
 
 namespace {
 
-// Lamps that cover more of a pixel are hit often enough by 16 samples. Calibrated.
+// If a lamp covers more of a pixel, 16 samples hit it often enough. Calibrated.
 constexpr double largest_share = 0.5;
 
 // In pixels from the image's top left corner.
@@ -37,8 +37,8 @@ double ahead(double way) {
 }
 
 // Returns the distance along a unit vector at which a ray from the origin enters a ball, or leaves it if it starts
-// inside. The distance is infinite for a miss. A moving ball counts at its first position, which never hides more than
-// the whole path.
+// inside. The distance is infinite if the ray does not hit. A moving ball counts at its first position, which never
+// hides more than the whole path does.
 double way_to(const MovingBall &ball, const glm::dvec3 &direction) {
     const double along = glm::dot(ball.open, direction);
     const double beside = glm::length(ball.open - along * direction);
@@ -55,8 +55,6 @@ double way_to(const Plane &plane, const Camera &camera, const glm::dvec3 &direct
     return ahead(-height / glm::dot(plane.normal, direction));
 }
 
-// Returns the fraction of camera rays along a unit vector that pass all nearer surfaces. `start` is the camera, moved
-// to the start of the ray.
 double transmittance(const PreparedScene &prepared, const Camera &start, const glm::dvec3 &direction, double distance) {
     const Scene &scene = prepared.scene;
     double share = 1.0;
@@ -78,7 +76,6 @@ double transmittance(const PreparedScene &prepared, const Camera &start, const g
     return share;
 }
 
-// `center` is relative to the camera.
 double visible_share(const PreparedScene &scene, const Camera &camera, const glm::dvec3 &center, double radius) {
     Camera start = camera;
     if (camera.is_orthographic())
@@ -89,13 +86,13 @@ double visible_share(const PreparedScene &scene, const Camera &camera, const glm
 
 struct Window {
     std::uint32_t width;
-    std::uint32_t height; // whole image
+    std::uint32_t height;
     std::uint32_t first_row;
     std::uint32_t row_count;
 };
 
-// `center` is relative to the camera and in front of it. A lens spreads each point over a disc. Variances add up, so
-// radii add up as squares.
+// `center` is relative to the camera and in front of it. A lens spreads each point over a disc. Radii are added as
+// squares, because variances add up.
 Disc disc_of(const glm::dvec3 &center, double radius, const Camera &camera, const Window &window) {
     const double depth = glm::dot(center, camera.forward);
     const double half_height = camera.is_orthographic() ? 0.5 * camera.vertical_extent : depth * camera.tan_half_fov;
@@ -107,7 +104,7 @@ Disc disc_of(const glm::dvec3 &center, double radius, const Camera &camera, cons
 }
 
 // Adds the pixels of a disc. Large discs are divided into squares of several pixels, which limits the number of pieces.
-// `of_disc` has the fraction of the disc's samples that hit the lamp.
+// `of_disc` is the fraction of the disc's samples that hit the lamp.
 void add_pieces(std::vector<LampPiece> &pieces, std::size_t first, Disc disc, int lines, const LampPiece &of_disc,
                 const Window &window) {
     constexpr double few = 4.0; // squares along a radius
@@ -144,8 +141,8 @@ void add_pieces(std::vector<LampPiece> &pieces, std::size_t first, Disc disc, in
     }
 }
 
-// A moving lamp is seen at several moments. If the lamp moves more than a pixel
-// between two moments, they also stand for the pixels between.
+// A moving lamp counts at several moments. If the lamp moves by more than a pixel from one moment to the next, each
+// moment also stands for the pixels between.
 void add_lamp(std::vector<LampPiece> &pieces, const PreparedScene &scene, const Camera &camera, const Window &window,
               const SeenSphere &lamp, const glm::dvec3 &emission) {
     constexpr double most_moments = 64.0;
@@ -208,10 +205,10 @@ std::uint64_t samples_to_hit(const LampPiece &piece, double offset, bool is_rand
 namespace {
 
 struct UnmetPiece {
-    double hits; // in all pixels
+    double hits; // over all pixels
     double square;
     double relative_square;
-    double lack; // squares without a hit
+    double lack; // squares of pixels without a hit
     double relative_lack;
 };
 
@@ -235,8 +232,8 @@ void add(ExpectedSquares &to, double square, double hits) {
 
 } // namespace
 
-// The number of hits has a Poisson distribution. The pieces with the largest errors count as missed, as long as less
-// than one hit of them all is expected.
+// The number of hits has a Poisson distribution. The pieces with the largest errors count as missed, as long as their
+// hits sum to less than one.
 UnmetSquares unmet_squares(const std::vector<LampPiece> &pieces, double offset, bool is_random,
                            const std::function<std::uint64_t(const LampPiece &)> &samples) {
     std::vector<UnmetPiece> unmet;

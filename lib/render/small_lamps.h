@@ -14,27 +14,27 @@ namespace pt {
 
 // The part of a lamp in one pixel, or in each of several equal pixels.
 struct LampPiece {
-    std::uint32_t x; // within the rows
+    std::uint32_t x; // relative to the rows
     std::uint32_t y;
     double share;      // fraction of samples that hit the lamp
     double lamp_share; // largest fraction of a pixel that the whole lamp covers
     glm::dvec3 emission;
-    double pixels = 1.0;    // number of equal pixels
-    bool is_spread = false; // samples hit the piece at random
+    double pixels = 1.0;
+    bool is_spread = false; // whether samples hit the piece at random
 
-    // The samples per pixel after which the number of hits has a relative deviation of a third: 8 random hits, or 3
+    // Samples per pixel from which the number of hits has a relative deviation of at most a third: 8 random hits, or 3
     // hits with one point per cell.
     double enough_samples(bool is_random) const;
 };
 
-// Returns the lamps in these rows that less than half of a pixel's samples hit. These lamps are smaller than half a
+// Returns the lamps in these rows that less than half of a pixel's samples hit. Such lamps are smaller than half a
 // pixel, move, are out of focus, or are behind translucent spheres. Lamps whose centers are behind opaque surfaces are
 // left out.
 std::vector<LampPiece> small_lamps_in_view(const PreparedScene &scene, const Camera &camera, std::uint32_t width,
                                            std::uint32_t height, std::uint32_t first_row, std::uint32_t row_count);
 
-// Returns the samples per pixel that are enough for a lamp, or 0 if missing the lamp changes the relative square by
-// less than a hundredth.
+// Returns the samples per pixel that are enough for a lamp. Returns 0 if the relative square changes by less than a
+// hundredth without the lamp.
 std::uint64_t samples_to_hit(const LampPiece &piece, double offset, bool is_random);
 
 struct ExpectedSquares {

@@ -1,4 +1,3 @@
-// Divides the missing samples of tiles into slices.
 #pragma once
 
 #include "lib/film/tile_samples.h"
@@ -18,7 +17,7 @@ public:
     using Goal = std::function<std::uint64_t(std::uint32_t)>;
 
     // `tiles` must ascend. Tiles below their goal take the first consecutive samples that they lack from first_sample
-    // on. If further samples are needed, the caller must set a new goal.
+    // on. Samples beyond these need a new goal.
     TileTasks(const TileSamples &present, std::uint32_t first_sample, std::span<const std::uint32_t> tiles,
               const Goal &goal);
 
@@ -30,35 +29,34 @@ public:
 
     bool empty() const { return tasks_.empty(); }
 
-    // Whether only some tiles of a chunk have begun its samples.
+    // Whether only some tiles of a task have begun its next samples.
     bool is_within_samples() const { return !empty() && tasks_.back().next_tile > 0; }
 
     // Returns a slice as large as the schedule allows. Requires !empty().
     TileSlice next(const Schedule &schedule);
 
-    // Whether a slice of this many tiles is the last for its samples, or for all samples.
+    // Whether a slice of this many tiles would be the last with its samples, or the last of all.
     bool ends_samples(std::size_t tile_count) const;
     bool ends_all(std::size_t tile_count) const;
 
-    // Must be called when the slice has begun.
     void leave_behind(std::size_t tile_count) noexcept;
 
 private:
-    // Tiles with equal samples, which take the same new samples.
+    // Tiles with equal samples that take the same new samples.
     struct Task {
         std::uint32_t set;
         std::uint64_t wanted;
         SampleRange before; // hull of present samples
         SampleRange samples;
-        SampleRange chunk{}; // being taken
+        SampleRange chunk{}; // samples being taken
         std::vector<std::uint32_t> found{};
-        std::span<const std::uint32_t> tiles{}; // ascending; `found` or all
+        std::span<const std::uint32_t> tiles{}; // ascending; either `found` or all tiles
         std::size_t next_tile = 0;
     };
 
     Task &add_task(std::uint32_t set, std::uint64_t wanted, const SampleSet &present, std::uint32_t first_sample);
 
-    std::vector<Task> tasks_; // the last is under way
+    std::vector<Task> tasks_; // the last one is running
 };
 
 } // namespace pt
