@@ -2,8 +2,7 @@
 // each round, tiles double their samples while the expected gain per added sample exceeds a bound. The bound falls from
 // round to round until the image's error is small enough.
 //
-// A round leaves each tile at the first level whose gain is at most the bound, in whatever order the tiles take
-// samples.
+// A round leaves each tile at the first level whose gain is at most the bound. The order of the tiles does not matter.
 #pragma once
 
 #include "lib/film/error_estimate.h"

@@ -1,4 +1,4 @@
-// Divides exact sums by sample counts. The bits are those of shaders/quotient.h, but 64-bit products are faster.
+// Divides exact sums by sample counts. The bits are the same as in shaders/quotient.h, but 64-bit products are faster.
 #pragma once
 
 #include "shaders/quotient.h"

@@ -21,7 +21,7 @@ namespace {
 constexpr double full_turn = 2.0 * std::numbers::pi;
 constexpr double float_pi = 3.14159274101257324;
 
-// Folds to a quarter turn, which makes zeros exact.
+// Folding to a quarter turn makes zeros exact.
 double sine_of_turn(double u) {
     if (u > 0.5)
         return -sine_of_turn(u - 0.5);
@@ -37,31 +37,33 @@ constexpr float complements[] = {0.0625F, 0.25F, 0.5F, 0.75F, 0.875F, 0.999F};
 constexpr float exponents[] = {-0.5F, -1.0F, -1.5F, -24.5F, -99.5F};
 constexpr float powers_of_two[] = {1.0F, 2.0F, 4.0F};
 
-// Bounds add the errors of all steps in units u = 2^-24. An ulp is 1 to 2 u of its value. Sums and products have an
-// error of u. Vulkan allows 2.5 ulp for division and 2 ulp for inversesqrt ("Precision and Operation of SPIR-V
-// Instructions"). The lists name each step with its error.
+// Each bound is the sum of the errors of all steps, in units of u = 2^-24. An ulp is 1 to 2 u of its value. Sums and
+// products add an error of u. Vulkan allows 2.5 ulp for division and 2 ulp for inversesqrt ("Precision and Operation of
+// SPIR-V Instructions").
 constexpr ElementaryFunction functions[] = {
-    // sin: 1/2 - u 1, product 1, q 1.95; half an ulp. cos near 1 (p = 4): w^2 0.5, p's last sum 1, cofactor 1.2,
-    // constant 0.9, remainder 0.1; half an ulp.
+    // The sine adds the errors 1 of 1/2 - u, 1 of the product and 1.95 of q. Near 1 (p = 4), the cosine adds 0.5 of
+    // w^2, 1 of the last sum of p, 1.2 of the cofactor, 0.9 of the constant and 0.1 of the remainder. Rounding the
+    // result adds half an ulp to either.
     {"sine (sin_cos_turn)", sine_of_turn, 4.5, 0x1p-100F, 1.0F, turns},
     {"cosine (sin_cos_turn)", cosine_of_turn, 4.5, 0x1p-100F, 1.0F, turns},
-    // Polynomial: last sum 0.7, constant 0.2, rest 0.4; half an ulp. At 1/4 (ulp 2^-25): log2 16 ulp (2^-21), 1 - y 2
-    // ulp.
+    // The polynomial adds the errors 0.7 of the last sum, 0.2 of the constant and 0.4 of the rest. Rounding the result
+    // adds half an ulp. At 1/4, where an ulp is 2^-25, Vulkan allows 16 ulp (2^-21) for log2, and 1 - y adds 2 ulp.
     {"log2(1 - x) (log2_one_minus)", [](double x) { return std::log1p(-x) / std::numbers::ln2; }, 18.0, 0x1p-100F,
      0x1.fffffep-1F, complements},
-    // Vulkan: 3 + 2 |x| ulp.
+    // Vulkan allows 3 + 2 |x| ulp.
     {"2^x (exp2_negative)", [](double x) { return std::exp2(x); }, 203.0, -0x1p-100F, -100.0F, exponents},
-    // k = 0, e = r (0.69 + w): sum 0.9, constant 0.1, w 0.4, remainder 0.2; half an ulp. k = -1, r = 1/2: 1.6 ulp.
+    // For k = 0, e = r (0.69 + w) adds the errors 0.9 of the sum, 0.1 of the constant, 0.4 of w and 0.2 of the
+    // remainder. Rounding the result adds half an ulp. For k = -1 and r = 1/2 the error is 1.6 ulp.
     {"1 - 2^x (one_minus_exp2)", [](double x) { return -std::expm1(x * std::numbers::ln2); }, 2.5, -0x1p-100F, -100.0F,
      exponents},
-    // sqrt: 4 u of inversesqrt and 2.5 ulp of the division.
+    // sqrt adds 4 u of inversesqrt and 2.5 ulp of the division.
     {"pi / x (division)", [](double x) { return float_pi / x; }, 2.5, 0x1p-100F, 0x1p100F, powers_of_two},
     {"square root (sqrt)", [](double x) { return std::sqrt(x); }, 6.5, 0x1p-100F, 0x1p100F, powers_of_two},
     {"1 / square root (inversesqrt)", [](double x) { return 1.0 / std::sqrt(x); }, 2.0, 0x1p-100F, 0x1p100F,
      powers_of_two},
 };
 
-// a NaN
+// is a NaN
 constexpr std::uint32_t unwritten = 0xffffffffU;
 constexpr std::size_t guard_words = 64;
 

@@ -17,18 +17,18 @@ struct ElementaryFunction {
     double (*exact)(double);
     double bound; // in ulp, on conforming devices
     float first, last;
-    std::span<const float> places; // where the function switches formulas
+    std::span<const float> places; // points where the function switches formulas
 };
 
 std::span<const ElementaryFunction> elementary_functions();
 
-// Arguments are the range's ends, `places` and their neighbors. Half of the others are evenly spread over the range,
-// and half over its exponents.
+// The arguments are the ends of the range, `places` and their neighbors, and others: half of these are evenly spread
+// over the range, half over its exponents.
 constexpr std::uint32_t arguments_per_function = 16384;
 std::vector<float> accuracy_arguments(const ElementaryFunction &function);
 
-// An ulp of `exact` is 2^(e - 23) for 2^e <= |exact| < 2^(e + 1). The error is infinite for NaN, for infinity, and if
-// only `exact` is 0.
+// An ulp of `exact` is 2^(e - 23) for 2^e <= |exact| < 2^(e + 1). NaN and infinity have an infinite error. So does a
+// value that is not 0 if `exact` is 0.
 double error_in_ulp(float value, double exact);
 
 // Unwritten values are NaN. Throws PT_ERROR_INTERNAL if the kernel writes past its values.

@@ -22,8 +22,8 @@ struct BufferTarget {
 class BufferWriter {
 public:
     struct PieceLimits {
-        std::uint64_t pixels; // >= 1
-        std::uint64_t bytes;  // with gaps between rows
+        std::uint64_t pixels;
+        std::uint64_t bytes; // includes gaps between rows
     };
     static PieceLimits piece_limits(const vulkan::Limits &limits);
 
@@ -32,8 +32,8 @@ public:
     BufferWriter(const BufferWriter &) = delete;
     BufferWriter &operator=(const BufferWriter &) = delete;
 
-    // Waits for the device. If there is a semaphore to signal, the next call waits instead. Throws PT_ERROR_INTERNAL if
-    // a driver lost work. If the previous call's work was lost, nothing is written.
+    // Waits for the device, unless there is a semaphore to signal. Then the next call waits. Throws PT_ERROR_INTERNAL
+    // if a driver lost work. If the previous call lost work, nothing is written.
     void write(const ImageQuery &query, const BufferTarget &target);
 
 private:

@@ -1,4 +1,4 @@
-// Counts the camera rays that hit a surface (shaders/coverage.comp). Rays are traced again, so the film needs no fourth
+// Counts the camera rays that hit a surface (shaders/coverage.comp). Traces the rays again, so the film needs no fourth
 // channel.
 #pragma once
 
@@ -17,7 +17,7 @@
 namespace pt {
 
 struct CoverageQuery {
-    Rectangle pixels; // >= 1
+    Rectangle pixels;
     const TileSamples &samples;
     const RenderSettings &settings;
 };
@@ -26,7 +26,7 @@ class Coverage {
 public:
     Coverage(vulkan::Device &device, std::span<const std::uint32_t> code);
 
-    // Calls receive(counts) for consecutive pieces of the pixels, row by row.
+    // receive(counts) gets consecutive pieces of the pixels, row by row.
     using Receive = std::function<void(std::span<const std::uint32_t>)>;
     void read(const BoundScene &bound, const CoverageQuery &query, double tests_per_submission, const Receive &receive);
 

@@ -26,14 +26,14 @@ public:
     struct Strip {
         std::uint32_t first_pixel;
         std::uint32_t pixel_count;
-        vulkan::Buffer words; // FILM_WORDS planes of the older part, then of the newer
+        vulkan::Buffer words; // FILM_WORDS planes of the older part, then of the newer part
 
         PixelRange pixels() const { return {first_pixel, pixel_count}; }
     };
 
     static constexpr std::uint64_t bytes_per_pixel = PixelSums::words_per_pixel * sizeof(std::uint32_t);
 
-    // Clear the film before use. Throws PT_ERROR_OUT_OF_DEVICE_MEMORY or PT_ERROR_UNSUPPORTED.
+    // The film must be cleared before use. Throws PT_ERROR_OUT_OF_DEVICE_MEMORY or PT_ERROR_UNSUPPORTED.
     DeviceFilm(vulkan::Device &device, std::uint32_t width, std::uint32_t height, std::uint32_t max_strip_pixels);
 
     std::uint32_t width() const { return grid_.width; }
@@ -48,12 +48,12 @@ public:
 
     bool has_whole_tiles() const;
 
-    // Records a copy without gaps between planes.
+    // The copy has no gaps between planes.
     void copy_to(const vk::raii::CommandBuffer &commands, const PixelRange &pixels, const vulkan::Buffer &to) const;
 
     void read(std::uint32_t first_pixel, PixelSums &sums);
 
-    // Leaves the film unchanged until replace().
+    // The film changes only by replace().
     class NewSums {
     public:
         // Throws PT_ERROR_OUT_OF_DEVICE_MEMORY.
@@ -61,7 +61,7 @@ public:
 
         void write(std::uint32_t first_pixel, const PixelSums &sums);
 
-        // All sums must be written before.
+        // All sums must have been written.
         void replace();
 
     private:
@@ -77,7 +77,7 @@ private:
     std::vector<Strip> strips_;
 };
 
-// Reads the sum of films of equal size, in pieces. Throws PT_ERROR_INTERNAL if the films lack samples.
+// Reads the sum of films of one size, in pieces. Throws PT_ERROR_INTERNAL if the films lack samples.
 void read_films(std::span<DeviceFilm *const> films, const TileSamples &samples, const PixelRange &pixels,
                 std::uint32_t most_pixels, const std::function<void(const PixelSums &)> &receive);
 

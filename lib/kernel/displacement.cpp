@@ -17,9 +17,9 @@ namespace pt {
 
 namespace {
 
-// Relative to length plus radius.
+// relative to length plus radius
 constexpr double rounding_of_capsules = 0x1p-21;
-// Relative to the radius, whose last bits hold the opacity.
+// Relative to the radius. The last bits of its float32 are the opacity.
 constexpr double rounding_of_radii = 0.5 * (gpu::TREE_OPACITY_STEPS + 1) * 0x1p-23;
 
 // Largest displacements by rounding, in scene units.
@@ -42,7 +42,6 @@ Losses losses_of(const SphereTree *tree, const MovingBall &surface) {
     return losses_of(tree, surface.kind == Kind::capsule ? glm::length(surface.way) : 0.0, surface.radius);
 }
 
-// The side of a pixel at a surface's depth.
 class PixelSides {
 public:
     PixelSides(const Camera &camera, const RenderSettings &settings) :
@@ -51,11 +50,11 @@ public:
         of_parallel_(camera.vertical_extent / settings.height),
         at_distance_1_(2.0 * camera.tan_half_fov / settings.height) {}
 
-    // A lower bound; infinite out of view.
+    // A lower bound. Infinite if the ball is out of view.
     double nearest(const MovingBall &ball) const { return at(depth_(ball)); }
 
-    // A lower bound. Long ways are halved until their parts are short or far away. Inside a ball, the camera sees its
-    // wall.
+    // A lower bound. Long capsules and motions are halved until the parts are short or far away. A camera inside a ball
+    // sees the ball's wall.
     double of_surface(const MovingBall &surface) const {
         const double depth = depth_(surface);
         const double short_way = view_ > 0.0 ? view_ : 0.25 * std::max(surface.radius, depth);
@@ -74,8 +73,8 @@ private:
     }
 
     std::function<double(const MovingBall &)> depth_;
-    double view_;        // height of an orthographic view, else 0
-    double of_parallel_; // of an orthographic view, else 0
+    double view_;        // height of an orthographic view, or 0
+    double of_parallel_; // pixel side in an orthographic view, or 0
     double at_distance_1_;
 };
 
@@ -116,7 +115,7 @@ Displaced most_displaced(const PreparedScene &scene, const Camera &camera, const
     const SphereTree *tree = scene.tree.get();
     if (tree == nullptr)
         return most;
-    // The search skips displacements of at most a pixel.
+    // Displacements of at most a pixel are skipped.
     const auto bounded = [](double ratio) {
         if (ratio < 1.0)
             return ratio;

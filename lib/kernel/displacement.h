@@ -1,4 +1,3 @@
-// How far rounding moves surfaces in the image.
 #pragma once
 
 #include "lib/base/error.h"

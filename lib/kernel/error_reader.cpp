@@ -16,15 +16,16 @@ std::uint32_t groups_in_row(const TileGrid &grid) {
     return (grid.width + gpu::ESTIMATE_WORKGROUP_SIZE - 1) / gpu::ESTIMATE_WORKGROUP_SIZE;
 }
 
-// In these units all squared relative errors are normal floats.
+// Units in which all squared relative errors are normal floats.
 struct RelativeUnits {
     float offset;
-    float scale; // Errors are below 2^FILM_MAX_EXPONENT, so error * scale / offset < 2^60.
+    float scale; // errors are below 2^FILM_MAX_EXPONENT, so error * scale / offset < 2^60
     double factor;
 
     double undone() const { return 1.0 / (static_cast<double>(scale) * static_cast<double>(scale) * factor); }
 
-    // An offset far above the film's values dominates the denominator. Limiting it scales all squares equally.
+    // If the offset is far above the film's values, it dominates the denominator. Limiting the offset then scales all
+    // squares equally.
     explicit RelativeUnits(double unit) {
         constexpr double far_above = 1e13;
         const double exact = std::sqrt(relative_offset) / unit;
@@ -97,7 +98,7 @@ TileGrid ErrorReader::grid_of(std::size_t strip) const {
     return {film_.width(), film_.strips()[strip].pixel_count / film_.width()};
 }
 
-// No kernel that reads this memory may be running.
+// No kernel may be reading this memory.
 void ErrorReader::list_counts(const TileSamples &samples) {
     if (samples.even())
         return;

@@ -1,4 +1,3 @@
-// Reads the error of a film's image (estimate.comp).
 #pragma once
 
 #include "lib/film/error_estimate.h"
@@ -18,21 +17,20 @@ namespace pt {
 struct ErrorQuery {
     double unit; // radiance per film unit, a power of two
     const TileSamples &samples;
-    std::span<double> by_tile{}; // receives each tile's own_square() (tile_errors.h)
+    std::span<double> by_tile{}; // receives own_square() of each tile (tile_errors.h)
 };
 
 class ErrorReader {
 public:
-    // The film must have whole tiles.
     ErrorReader(vulkan::Device &device, const vulkan::ComputePipeline &estimate, DeviceFilm &film);
 
     using Receive = std::function<void(const TileErrors &)>;
 
-    // Calls receive() with sums over some tiles of a row, in a fixed order.
+    // receive() gets sums over some tiles of a row, in a fixed order.
     void read(const ErrorQuery &query, const Receive &receive);
 
-    // Both steps of read(), for films of one strip. record() adds to commands that take samples. Call collect() after
-    // their end. Only one such submission may be in flight.
+    // The two steps of read(), for films of one strip. record() adds to commands that take samples. Their end must come
+    // before collect(). Only one such submission may be running.
     void record(const vk::raii::CommandBuffer &commands, const ErrorQuery &query);
     void collect(const ErrorQuery &query, const Receive &receive) const;
 

@@ -1,4 +1,4 @@
-// Sums the films of several devices in the first one's memory (add.comp). The others' films pass through host memory.
+// Sums the films of several devices in the first device's memory (add.comp). The other films pass through host memory.
 #pragma once
 
 #include "lib/kernel/device_film.h"
@@ -22,12 +22,10 @@ public:
         DeviceFilm &film;
     };
 
-    // The films have one size. Throws PT_ERROR_OUT_OF_DEVICE_MEMORY.
     FilmSum(const std::vector<Source> &sources, const vulkan::ComputePipeline &add, std::uint32_t row_count);
 
     DeviceFilm &film() { return film_; }
 
-    // Sums the `wanted` pixels of the rows from first_row on.
     void gather(std::uint32_t first_row, const PixelRange &wanted);
 
 private:

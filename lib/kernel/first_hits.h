@@ -1,4 +1,3 @@
-// Reads depth, normal, albedo and object of first hits (shaders/first_hit.comp).
 #pragma once
 
 #include "lib/film/film_header.h"
@@ -18,7 +17,7 @@ constexpr bool is_of_first_hits(std::uint32_t quantity) {
 
 struct FirstHitQuery {
     Rectangle pixels;
-    std::uint32_t quantity; // must satisfy is_of_first_hits()
+    std::uint32_t quantity;
     std::uint32_t format;
 };
 
@@ -26,7 +25,7 @@ class FirstHits {
 public:
     FirstHits(vulkan::Device &device, std::span<const std::uint32_t> code);
 
-    // Calls receive(bytes) for consecutive pieces of the pixels, row by row. Objects are the kernel's surface indices.
+    // receive(bytes) gets consecutive pieces of the pixels, row by row. Objects are the kernel's surface indices.
     using Receive = std::function<void(std::span<const std::byte>)>;
     void read(const BoundScene &bound, const FirstHitQuery &query, double tests_per_submission, const Receive &receive);
 

@@ -23,7 +23,8 @@ float mean(const glm::vec3 &color) {
     return (color.r + color.g + color.b) / 3.0F;
 }
 
-// Proportional to reflectance. The diffuse lobe counts twice, because light from a hemisphere varies more.
+// Proportional to reflectance. The diffuse part counts twice, because its light comes from a hemisphere and varies
+// more.
 float specular_probability(const Material &material) {
     const float specular = mean(material.specular);
     const float diffuse = 2.0F * mean(material.diffuse);
@@ -86,7 +87,7 @@ public:
     }
 
 private:
-    // Adding 0 turns -0 into +0. The film rejects negative numbers.
+    // Adding 0 turns -0 into +0. The film would reject -0.
     void write_emission(std::uint64_t word, const Material &material) {
         words_[word] = glm::vec4(material.emission + 0.0F, mean(material.emission));
     }

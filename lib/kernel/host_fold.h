@@ -1,5 +1,5 @@
-// Adds one part of a film to the other on the host. On lavapipe a kernel is slower, because its invocations access
-// memory one at a time.
+// Adds one part of a film to the other on the host. On lavapipe a kernel is slower, because invocations access memory
+// one at a time.
 #pragma once
 
 #include "lib/film/pixel_sums.h"
@@ -19,11 +19,11 @@ public:
     HostFold(const HostFold &) = delete;
     HostFold &operator=(const HostFold &) = delete;
 
-    // Call this once, with the film in host memory and no submission running. If a rare word (film.glsl) is not 0,
-    // returns false and folds nothing, because the next submission expects zeros there.
+    // Needs the film in host memory, and no running submission. May be called once. If a rare word (film.glsl) is not
+    // 0, returns false and folds nothing, because the next submission expects zeros there.
     bool fold(std::vector<PixelRange> pixels);
 
-    // Call this after the submission.
+    // Must follow the submission.
     void keep() noexcept { folded_.clear(); }
 
 private:

@@ -22,8 +22,7 @@ public:
         pipelines_(pipelines),
         film_(film) {}
 
-    // Calls receive(bytes) for consecutive pieces of the pixels, row by row. Throws PT_ERROR_INTERNAL if a driver lost
-    // work.
+    // receive(bytes) gets consecutive pieces of the pixels, row by row. Throws PT_ERROR_INTERNAL if a driver lost work.
     void read(const ImageQuery &query, const std::function<void(std::span<const std::byte>)> &receive);
 
     // Returns all pixels without gaps. The memory is valid until the next call.

@@ -31,33 +31,33 @@ public:
 
     const Features &features() const { return gpu_scene_->features; }
 
-    // show() needs a scene with the same features, and no work in flight.
+    // show() needs a scene with the same features. No work may be running.
     const GpuScene &scene() const { return *gpu_scene_; }
     bool can_show(const GpuScene &scene) const;
     void show(std::shared_ptr<const GpuScene> scene, const RenderSettings &settings);
 
-    // For other kernels, while no work is in flight.
+    // For other kernels. No work may be running.
     BoundScene bound_scene();
 
     // Builds pipelines in another cache.
     void build(TracePipelines &pipelines) const;
 
-    // Some drivers compile only at the first dispatch. No work may be in flight.
+    // Some drivers compile only at the first dispatch. No work may be running.
     void dispatch_nothing();
 
     std::uint32_t max_samples() const { return max_dispatch_samples_ * (max_tables - 1); }
 
     using Behind = std::function<void(const vk::raii::CommandBuffer &)>;
 
-    // At most queue_depth slices may be in flight.
+    // At most queue_depth slices may be running.
     vulkan::Device::Ticket start(const TileSlice &slice, bool on_cleared_film, const Behind &behind = {});
 
-    // Waits for a slice. Returns its seconds, or an estimate by expected_seconds if the device cannot measure.
+    // Waits for a slice. Returns its seconds, or an estimate from expected_seconds if the device cannot measure.
     double finish(vulkan::Device::Ticket ticket, double expected_seconds = 0.0);
 
 private:
-    // Each dispatch of a slice has its own table of points. Together they take at most 4 MiB. The film's split may add
-    // one dispatch.
+    // Each dispatch of a slice has its own table of points. Together the tables take at most 4 MiB. A split of the film
+    // may add one dispatch.
     static constexpr std::uint32_t max_tables = 64;
 
     struct Batch {
@@ -79,7 +79,7 @@ private:
     std::uint32_t sharers_of(std::size_t tile_count, std::uint32_t sample_count) const;
     bool folds_on_host() const;
 
-    // Overlapping dispatches add atomically instead of overwriting.
+    // Overlapping dispatches must add atomically.
     std::uint32_t overwrites(bool part_is_empty) const { return part_is_empty && !overlap_ ? 1 : 0; }
 
     vulkan::Device &device_;
@@ -99,7 +99,7 @@ private:
     std::vector<vulkan::DescriptorSet> sets_;
     std::uint32_t next_table_ = 0;
     bool scene_is_old_ = true;
-    double seconds_ = 0.0; // device time of the scene's slices
+    double seconds_ = 0.0;
 };
 
 } // namespace pt

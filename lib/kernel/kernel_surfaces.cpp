@@ -8,7 +8,7 @@ namespace pt {
 
 namespace {
 
-// Whether the camera is surely inside. Motion is straight, so both ends suffice.
+// Whether the camera is certainly inside. Motion is straight, so checking both ends suffices.
 bool holds_camera(const SeenSphere &sphere) {
     constexpr double margin = 1.0 - side_margin;
     return sphere.distance < sphere.radius * margin && glm::length(sphere.close()) < sphere.radius * margin;

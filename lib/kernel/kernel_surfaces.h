@@ -19,9 +19,9 @@ struct HiddenCounts {
 };
 
 // The order is lamps, skies, other spheres, curved planes, planes. Each kind keeps the scene's order. Hidden surfaces
-// are the last lamps, first skies, last other spheres and first planes, so that visible ones form two ranges. A sky is
-// an emitting sphere around the camera, which cannot be sampled from inside. If it is hidden and lies apart from all
-// visible surfaces, it is a lamp.
+// are the last lamps, first skies, last other spheres and first planes, so the visible ones form two ranges. A sky is
+// an emitting sphere around the camera. Directions towards it cannot be sampled from inside. A hidden sky that lies
+// apart from all visible surfaces is a lamp.
 struct KernelSurfaces {
     std::vector<SeenSphere> spheres;
     std::vector<CurvedPlane> planes;

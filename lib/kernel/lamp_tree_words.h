@@ -21,7 +21,7 @@ struct TreeLamp {
     std::uint32_t lamp;
 };
 
-// There are lamp_tree_words() words. The lamps are in the tree's order.
+// `words` has lamp_tree_words() words. `lamps` are in the tree's order.
 void write_lamp_tree(std::span<glm::vec4> words, std::span<const TreeLamp> lamps, bool motion);
 
 } // namespace pt

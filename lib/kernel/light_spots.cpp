@@ -10,12 +10,12 @@ namespace pt {
 
 namespace {
 
-// Empirical (tests/bench/NOTEBOOK.md). A glow is worth a ray if the plane is bright, and the lamp is near but does not
-// cover it.
-constexpr double largest_glow_height = 0.2; // relative to the height above the farthest plane
+// Found by measurements (tests/bench/NOTEBOOK.md). A glow is worth a ray if the plane is bright, and the lamp is near
+// without covering the plane.
+constexpr double largest_glow_height = 0.2; // relative to the farthest plane's height
 constexpr double least_glow_height = 1.5;   // relative to the lamp's radius
 constexpr double least_glow_diffuse = 0.35;
-// A mirror image is worth a ray if it is bright and small. Its width is 1 / glossiness plus the lamp's.
+// A mirror image is worth a ray if it is bright and small. Its width is 1 / glossiness plus the width of the lamp.
 constexpr double least_image_specular = 0.45;
 constexpr double widest_image = 0.02;
 

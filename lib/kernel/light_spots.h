@@ -1,4 +1,4 @@
-// Finds spots: small bright places that random rays seldom hit (shaders/spots.glsl).
+// Spots are small bright places that random rays seldom hit (shaders/spots.glsl).
 #pragma once
 
 #include "lib/kernel/kernel_surfaces.h"
@@ -17,8 +17,8 @@ struct LightSpot {
     float glossiness; // of a mirror image; -1 for a glow
 };
 
-// Returns none for short paths, many lamps, or more than SPOT_LIMIT spots. Spots do not depend on the camera, so a
-// moving camera keeps its kernel.
+// Short paths, many lamps, or more than SPOT_LIMIT spots give none. Spots do not depend on the camera, so a moving
+// camera keeps its kernel.
 std::vector<LightSpot> light_spots(const KernelSurfaces &surfaces, const std::vector<Material> &materials,
                                    const Features &features);
 

@@ -6,7 +6,7 @@
 namespace pt {
 
 // The kernel pays after a second of use. Waiting that long costs at most twice the optimum (ski rental problem). The
-// wait doubles when a kernel did not pay, and is reset when one has.
+// wait doubles after a kernel that did not pay, and is reset after one that did.
 class OwnKernelClock {
 public:
     static constexpr double seconds_to_pay = 1.0;

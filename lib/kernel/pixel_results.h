@@ -1,4 +1,4 @@
-// A kernel's results per pixel, after a header with the number of lost pixels.
+// A kernel's results per pixel. A header has the number of lost pixels.
 #pragma once
 
 #include "lib/vulkan/buffer.h"
@@ -28,13 +28,12 @@ public:
     vulkan::BufferRange pixels() const { return {found_.handle(), findings_bytes, room()}; }
     vulkan::BufferRange findings() const { return {found_.handle(), 0, findings_bytes}; }
 
-    // clear() goes before the kernel, hand_over() after it.
+    // clear() precedes the kernel. hand_over() follows.
     void clear(const vk::raii::CommandBuffer &commands) const { found_.clear(commands, 0, findings_bytes); }
     void hand_over(const vk::raii::CommandBuffer &commands, std::uint64_t bytes) const {
         host_.copy(commands, found_, vk::BufferCopy{.size = findings_bytes + bytes});
     }
 
-    // Valid once the work has ended.
     std::span<const std::byte> bytes() const { return host_.host_memory().subspan(findings_bytes); }
     std::uint32_t lost_pixels() const {
         std::uint32_t count = 0;

@@ -11,7 +11,7 @@
 
 namespace pt {
 
-// Later numbers of a path are random.
+// Numbers beyond these dimensions are random.
 inline constexpr std::uint32_t sequence_dimensions = 64;
 
 // A multiple of 2^-32.
@@ -39,7 +39,7 @@ struct PointLayout {
 // Flips each binary digit by a hash of the seed and the digits before it (Owen 1995).
 std::uint32_t owen_scrambled(std::uint32_t coordinate, std::uint32_t seed);
 
-// Multiples of 2^-32; 0 beyond the block's dimensions.
+// Multiples of 2^-32, or 0 beyond the block's dimensions.
 using PointBlock = std::array<std::uint32_t, 4>;
 
 // Returns a row per index. The sampler must not be PT_SAMPLER_RANDOM. The seed scrambles Sobol points.

@@ -1,4 +1,4 @@
-// A scene with everything that does not depend on the camera.
+// The parts of a scene that do not depend on the camera.
 #pragma once
 
 #include "lib/base/work_progress.h"
@@ -16,13 +16,13 @@ namespace pt {
 
 struct PreparedScene {
     Scene scene; // without the tree's spheres
-    // Radiance of a film unit, a power of two. The brightest emission has 2^7 to 2^8 units. Samples up to 2^20 times as
+    // Radiance per film unit, a power of two. The brightest emission has 2^7 to 2^8 units. Samples up to 2^20 times as
     // bright are accepted. Samples down to 2^-44 times as bright are exact.
     double film_unit;
     std::vector<Material> used_materials;
-    std::vector<std::uint32_t> used_indices; // index in used_materials of each scene material
+    std::vector<std::uint32_t> used_indices; // position in used_materials of each scene material
     bool gloss;
-    std::shared_ptr<const SphereTree> tree; // NULL if there are few spheres
+    std::shared_ptr<const SphereTree> tree; // NULL for few spheres
     bool moves;
     std::vector<std::uint32_t> lamp_order; // see lamp_tree.h
 

@@ -17,12 +17,12 @@ namespace {
 // Squared distances of farther starts would overflow float32. Spheres are nearer, because coordinates are at most 1e18.
 constexpr double farthest_start = 6e18;
 
-// Directions have an error of 2^-24, which exceeds 1/1024 of a narrower pixel.
+// The error of directions, 2^-24, exceeds 1/1024 of a narrower pixel.
 constexpr double narrow_pixel = 0x1p-14; // side of a pixel at distance 1
 
-// The pyramid of rays through the lens's center, and the cone around it.
+// The pyramid of rays through the center of the lens, and a cone around the pyramid.
 struct View {
-    std::array<glm::dvec3, 4> corners; // at depth 1
+    std::array<glm::dvec3, 4> corners; // directions of depth 1
     glm::dvec3 forward;
     double half_angle;
     double aside; // largest distance of lens rays from the pinhole ray
@@ -83,7 +83,7 @@ double depth_from_within(const glm::dvec3 &centre, double radius, const View &vi
     return (distance * std::cos(farthest) + half_chord) * std::cos(view.half_angle);
 }
 
-// In perspective, the ball around the way gives a good bound.
+// In perspective, the ball around the whole motion gives a good bound.
 double depth_on_way(const MovingBall &, const View &) {
     return 0.0;
 }
@@ -113,8 +113,9 @@ double nearest_depth(const CurvedPlane &plane, const ParallelView &view) {
     return slope > 0.0 ? (plane.offset - across) / slope : out_of_view;
 }
 
-// The cylinder's line nearest to the center hits the ball first. Let a be the center's depth and c its distance from
-// the line. Then a - sqrt(r^2 - c^2) = (a^2 + c^2 - r^2) / (a + sqrt(r^2 - c^2)). The second form does not cancel.
+// The line of the cylinder that is nearest to the center hits the ball first. Let a be the center's depth and c its
+// distance from the line. Then a - sqrt(r^2 - c^2) = (a^2 + c^2 - r^2) / (a + sqrt(r^2 - c^2)). The second form does
+// not cancel.
 double depth_of_ball(const glm::dvec3 &centre, double radius, const ParallelView &view) {
     const double depth = glm::dot(centre, view.forward);
     const double across = glm::length(centre - depth * view.forward);
@@ -129,7 +130,7 @@ double depth_of_ball(const glm::dvec3 &centre, double radius, const ParallelView
     return depth > 0.0 && power > 0.0 ? power / (depth + half_chord) : 0.0;
 }
 
-// Largest distance of a ray from the parallel through the center.
+// Largest distance of a ray from the parallel ray through the center.
 double most_across(const glm::dvec3 &centre, const ParallelView &view) {
     return glm::length(centre - glm::dot(centre, view.forward) * view.forward) + view.radius;
 }
@@ -143,7 +144,7 @@ double depth_from_within(const glm::dvec3 &centre, double radius, const Parallel
     return glm::dot(centre, view.forward) + std::sqrt((radius - most) * (radius + most));
 }
 
-// A sphere is nearest at an end of its way. The ball around the whole way would give a worse bound.
+// A sphere is nearest at an end of its motion. The ball around the whole motion would give a worse bound.
 double depth_on_way(const MovingBall &sphere, const ParallelView &view) {
     const double open = glm::dot(sphere.open, view.forward);
     return open + std::min(glm::dot(sphere.way, view.forward), 0.0) - sphere.radius;
@@ -156,7 +157,7 @@ double depth_of_region(const MovingBall &ball, const AnyView &view) {
     return ball.way == glm::dvec3(0.0) ? depth : std::max(depth, depth_on_way(ball, view));
 }
 
-// From inside, rays hit the far wall. Rays stay `margin` radii away from the surface.
+// A ray that starts inside hits the far wall. Its start stays `margin` radii away from the surface.
 template <typename AnyView>
 double depth_of_sphere(const MovingBall &sphere, const AnyView &view, double margin = 0.0) {
     const double inner = sphere.radius * (1.0 - margin) - view.aside;
@@ -165,7 +166,7 @@ double depth_of_sphere(const MovingBall &sphere, const AnyView &view, double mar
     return depth_of_region({sphere.open, sphere.way, sphere.radius * (1.0 + margin)}, view);
 }
 
-// A lower bound. Rays start away from tree spheres, so that float32 can tell the side.
+// A lower bound. Rays start so far from tree spheres that float32 can tell the side.
 template <typename AnyView>
 double first_depth(const Scene &scene, const SphereTree *tree, const Camera &camera, const AnyView &view) {
     double depth = out_of_view;
@@ -195,7 +196,7 @@ void require_held_view(const Camera &camera, const RenderSettings &settings) {
                                        number_text(width)});
 }
 
-// Stops before the first surface by the view's width and a little more, so that no visible surface cuts the disc of
+// Stops before the first surface, by a little more than the view's width, so no visible surface intersects the disc of
 // starts.
 Camera starting_in_parallel(const Scene &scene, const SphereTree *tree, const Camera &camera,
                             const RenderSettings &settings) {
@@ -224,8 +225,8 @@ Camera starting_ahead(const Scene &scene, const SphereTree *tree, const Camera &
     const double depth = first_depth(scene, tree, camera, view);
     if (depth > farthest_start)
         return ahead;
-    // Stops before the first surface by the lens's radius and the view's width, so that rounding puts no start behind
-    // it. A lens's rays converge towards the focus.
+    // Stops before the first surface, by the lens's radius and the view's width, so rounding puts no start behind it.
+    // The rays of a lens converge towards the focus.
     const double tangent = std::tan(view.half_angle);
     ahead.start_distance = std::max((1.0 - tangent) * depth - camera.lens_radius, 0.0);
     if (camera.has_lens()) {

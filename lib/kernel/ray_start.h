@@ -1,4 +1,3 @@
-// Moves the start of camera rays towards the scene.
 #pragma once
 
 #include "lib/scene/camera.h"
@@ -12,17 +11,17 @@
 
 namespace pt {
 
-// Moves the camera ahead to the first surface that may be in view, if the view is so narrow that rounding would show.
-// Rays start on a plane there, whose center is the origin of the kernel's coordinates. Parallel rays always start on
+// In views so narrow that rounding would show, moves the camera ahead to the first surface that may be in view. Rays
+// then start on a plane there, whose center is the origin of the kernel's coordinates. Parallel rays always start on
 // such a plane, in a disc (start_radius). Throws PT_ERROR_UNSUPPORTED if a parallel view is too wide.
 Camera starting_ahead(const Scene &scene, const SphereTree *tree, const Camera &camera, const RenderSettings &settings);
 
 inline constexpr double out_of_view = std::numeric_limits<double>::infinity();
 
-// Returns a function for lower bounds of a moving ball's depth.
+// The function returns lower bounds of a moving ball's depth.
 std::function<double(const MovingBall &)> depths_in_view(const Camera &camera, const RenderSettings &settings);
 
-// `camera` comes from starting_ahead().
+// starting_ahead() returns `camera`.
 gpu::CameraView camera_view(const Camera &camera, const RenderSettings &settings);
 
 } // namespace pt

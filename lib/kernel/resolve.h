@@ -1,4 +1,3 @@
-// Makes images from films (shaders/resolve.comp).
 #pragma once
 
 #include "lib/film/film_header.h"
@@ -19,7 +18,7 @@ struct ImageQuery {
     Rectangle pixels;
     std::uint32_t quantity;
     double unit;                       // radiance per film unit, a power of two
-    std::optional<PartCounts> samples; // each pixel's samples, if equal
+    std::optional<PartCounts> samples; // of each pixel, if equal
     std::uint32_t format = PT_FORMAT_RGB32F;
 };
 
@@ -27,7 +26,7 @@ class ResolvePipelines {
 public:
     ResolvePipelines(vulkan::Device &device, std::span<const std::uint32_t> code) : device_(device), code_(code) {}
 
-    // Builds a pipeline on first use. Layouts are equal, so buffers bound for one format serve all.
+    // Builds the pipeline of a format on first use. All have equal layouts, so buffers bound for one serve all.
     const vulkan::ComputePipeline &of(std::uint32_t format);
 
 private:
@@ -46,7 +45,6 @@ struct ResolvedPiece {
 void resolve(const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline, const DeviceFilm &film,
              std::span<const vulkan::DescriptorSet> sets, const ImageQuery &query, const ResolvedPiece &piece);
 
-// Throws PT_ERROR_INTERNAL unless the count is 0.
 void require_no_loss(std::uint32_t lost_pixels);
 
 } // namespace pt

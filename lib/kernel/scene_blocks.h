@@ -10,19 +10,19 @@
 
 namespace pt {
 
-// Units are words of four floats. 2^30 surfaces can take more than 2^32 words.
+// In words of four floats. 2^30 surfaces can take more than 2^32 words.
 struct SceneBlocks {
     std::uint64_t emission;
-    // The diffuse word of surface or material i is at diffuse + i * reflection_step.
+    // Surface or material i has its diffuse word at diffuse + i * reflection_step.
     std::uint64_t diffuse;
     std::uint64_t specular;
     std::uint64_t reflection_step;
     std::uint64_t motion;
     std::uint64_t curvature;
     std::uint64_t lamp_tree;
-    std::uint64_t spots; // in the uniform buffer
-    std::uint64_t index; // outside the uniform buffer
-    std::uint64_t tree;  // only with a tree
+    std::uint64_t spots; // in the uniform buffer only
+    std::uint64_t index; // outside the uniform buffer only
+    std::uint64_t tree;  // with a tree only
     std::uint64_t word_count;
 
     explicit SceneBlocks(const Features &features);

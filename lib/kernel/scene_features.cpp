@@ -15,8 +15,8 @@
 
 namespace pt {
 
-// The trips suffice for two rays. The longest walk of invocations in lockstep has about 100 trips for 10^6 spheres.
-// Samples that need more are lost and reported (tree_walk.glsl).
+// These trips suffice for two rays. For 10^6 spheres, the longest walk of invocations in lockstep has about 100 trips.
+// Samples that need more trips are lost and reported (tree_walk.glsl).
 std::uint64_t loop_trips_per_walk(const Features &features) {
     constexpr std::uint64_t tree_trips = 200;
     return features.surface_count() + (features[gpu::ID_TREE] ? tree_trips : 0);
@@ -36,7 +36,7 @@ std::vector<std::uint32_t> camera_blocks(const Features &features) {
 
 namespace {
 
-// Whether a sphere lies in the convex region between the planes around the camera, which paths cannot leave.
+// Whether a sphere lies in the convex region around the camera that planes bound. Paths cannot leave this region.
 bool is_in_region(const std::vector<CurvedPlane> &planes, const SeenSphere &sphere) {
     const std::array way = {sphere.open, sphere.close()};
     return std::ranges::all_of(planes, [&](const CurvedPlane &plane) {
@@ -46,7 +46,6 @@ bool is_in_region(const std::vector<CurvedPlane> &planes, const SeenSphere &sphe
     });
 }
 
-// `box` has scene coordinates.
 bool is_in_region(const std::vector<CurvedPlane> &planes, const PointBox &box, const Camera &camera) {
     return std::ranges::all_of(planes, [&](const CurvedPlane &plane) {
         const glm::dvec3 nearest = glm::mix(box.low, box.high, glm::lessThan(plane.normal, glm::dvec3(0.0)));
@@ -54,7 +53,6 @@ bool is_in_region(const std::vector<CurvedPlane> &planes, const PointBox &box, c
     });
 }
 
-// Whether float32 can tell the camera's side.
 bool has_known_side(const CurvedPlane &plane) {
     return static_cast<float>(plane.offset) != 0.0F;
 }
@@ -72,8 +70,8 @@ std::uint32_t rounded_up(std::uint32_t levels) {
     return (levels + step - 1) / step * step;
 }
 
-// Without a tree, one loop sums over the lamps and one chooses. A tree has loops over its top groups, down to the
-// chosen lamp, and down to a lamp that a direction hits.
+// Without a tree, one loop sums over the lamps and another one chooses. A tree has loops over the top groups, down to
+// the chosen lamp, and down to a lamp that a direction hits.
 std::uint64_t lamp_trips(const Features &features) {
     return features[gpu::ID_LAMP_TREE_LEVELS] ? gpu::LAMP_TREE_TOP_GROUPS + 2 * features[gpu::ID_LAMP_TREE_LEVELS]
                                               : 2 * std::uint64_t{features[gpu::ID_LAMP_COUNT]};
@@ -99,7 +97,7 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
     const auto may_hold_paths = [&](const SeenSphere &sphere) {
         return sphere.hidden ? !lies_apart(sphere) : is_at_camera(sphere);
     };
-    // Paths may be behind hidden surfaces.
+    // Paths may lie behind hidden surfaces.
     const auto is_passed = [&](const SeenSphere &sphere) {
         return sphere.hidden && (may_hold_origin(sphere) || !lies_apart(sphere));
     };
@@ -135,8 +133,8 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
     features[gpu::ID_PLANES_BLOCK] = features[gpu::ID_CURVATURE] || planes_divide || planes_are_passed ||
                                      std::ranges::any_of(lamps, is_behind_a_plane) ||
                                      (tree_lamps > 0 && !is_in_region(distinct.seen.planes, tree->bounds(), camera));
-    // For distinct flat planes, vertices give the sides faster. Sides are unknown if rays start on both sides of a
-    // surface or pass through it.
+    // Distinct flat planes need no sides, because vertices are faster. Sides are unknown if rays start on both sides of
+    // a surface or pass through it.
     const bool starts_divided = distinct.seen.any_surface(divides) || (tree && tree->divides_start(camera));
     const bool some_are_passed = planes_are_passed || std::ranges::any_of(distinct.seen.spheres, is_passed);
     features[gpu::ID_KNOWN_SIDES] =
@@ -241,7 +239,7 @@ std::uint64_t loop_trips_per_sample(const Features &features) {
 }
 
 double surface_tests_per_ray(const Features &features, const SphereTree *tree) {
-    constexpr double tests_of_node = 4.0; // about one per child
+    constexpr double tests_of_node = 4.0;
     const double tests = features.surface_count() + (tree ? tests_of_node * tree->cost() : 0.0);
     return std::max(1.0, tests);
 }

@@ -18,7 +18,7 @@ namespace pt {
 struct Features {
     // Indexed by gpu::ID_*. Constants that depend on the device are set later.
     std::array<std::uint32_t, gpu::CONSTANT_COUNT> constants{};
-    std::uint32_t most_branches = 0; // at a path's first vertex
+    std::uint32_t most_branches = 0; // branches at a path's first vertex
     std::uint32_t table_materials = 0;
 
     bool operator==(const Features &) const = default;
@@ -34,7 +34,6 @@ struct Features {
     std::uint32_t walked_lamps() const { return constants[gpu::ID_LAMP_COUNT] - constants[gpu::ID_TREE_LAMPS]; }
 };
 
-// Does not set gpu::ID_SPOT_COUNT (light_spots.h).
 Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfaces, const PreparedScene &scene,
                      const Camera &camera, const RenderSettings &render);
 
@@ -49,13 +48,12 @@ std::uint32_t branch_count(const Features &features);
 
 PointLayout point_layout(const Features &features);
 
-// By constant_id.
 std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Features &features);
 
-// An upper bound without unrolled loops.
+// An upper bound. Unrolled loops do not count.
 std::uint64_t loop_trips_per_sample(const Features &features);
 
-// For one ray, or two rays from the same vertex.
+// For one ray, or for two rays from the same vertex.
 std::uint64_t loop_trips_per_walk(const Features &features);
 
 double surface_tests_per_path(const Features &features, const SphereTree *tree);

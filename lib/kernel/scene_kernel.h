@@ -1,4 +1,4 @@
-// A kernel that reads the scene, besides the path tracer.
+// A kernel other than the path tracer that reads the scene.
 #pragma once
 
 #include "lib/kernel/gpu_scene.h"
@@ -14,7 +14,7 @@
 
 namespace pt {
 
-// The scene's bindings come first. They do not depend on a tree.
+// Puts the scene's bindings, which do not depend on a tree, before the further ones.
 std::vector<vulkan::Binding> with_scene_bindings(std::initializer_list<vulkan::Binding> further);
 std::vector<vulkan::BufferRange> scene_ranges(const GpuScene &scene, const vulkan::Buffer &words,
                                               const vulkan::Buffer *tree);
@@ -29,7 +29,6 @@ public:
     SceneKernel(vulkan::Device &device, std::span<const std::uint32_t> code, std::vector<vulkan::Binding> bindings,
                 std::uint32_t push_constant_bytes);
 
-    // By constant_id.
     void fit(std::span<const std::uint32_t> constants);
 
     vulkan::DescriptorSet bind(const BoundScene &bound, std::initializer_list<vulkan::BufferRange> ranges) const;
@@ -47,10 +46,9 @@ private:
     std::optional<vulkan::ComputePipeline> pipeline_;
 };
 
-// About this many tests, at least one ray.
+// Rays with about this many tests together, at least one ray.
 double rays_for(double tests, const GpuScene &scene);
 
-// Throws PT_ERROR_INTERNAL unless the count is 0.
 void require_all_met(std::uint32_t lost_pixels);
 
 } // namespace pt

@@ -23,7 +23,7 @@ namespace pt {
 
 namespace {
 
-// Searches beside the library, so that an installed tree can be moved, then the system's path. Never searches the
+// Searches beside the library, so that an installed tree can be moved, then in the system's path, but never in the
 // working directory. The module stays loaded, because glslang keeps tables.
 pt_compile_glsl_fn load_compiler(const std::string &shader_directory) {
     const std::filesystem::path folder = platform::folder_with(reinterpret_cast<const void *>(&load_compiler));

@@ -25,7 +25,7 @@ struct KernelCode {
 
 KernelCode embedded_code();
 
-// Covers the code that makes pixels.
+// Digest of all code that affects pixels.
 std::string digest_of(const KernelCode &code);
 
 class ShaderSource {
@@ -35,8 +35,8 @@ public:
 
     bool is_embedded() const { return directory_.empty(); }
 
-    // Compiles the current files. Throws PT_ERROR_SHADER with the compiler's log, or PT_ERROR_UNSUPPORTED without its
-    // module.
+    // Compiles the current files. Throws PT_ERROR_SHADER with the compiler's log, or PT_ERROR_UNSUPPORTED if the
+    // compiler's module is missing.
     KernelCode read() const;
 
 private:

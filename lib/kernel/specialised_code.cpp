@@ -63,13 +63,13 @@ struct Fact {
     std::optional<std::uint32_t> value;
     std::optional<std::uint32_t> spec_id;
     std::uint32_t place = 0;
-    std::uint32_t taken = 0; // the only branch that is followed, else 0
+    std::uint32_t taken = 0; // the only branch that is followed, or 0
     bool is_reached = false;
-    bool is_merge = false; // A kept instruction merges there.
+    bool is_merge = false; // whether a kept instruction merges here
     bool is_there = false;
 };
 
-// Evaluates constants, then finds and writes reachable blocks and functions. Throws Unknown.
+// Evaluates constants, finds reachable blocks and functions, and writes these. Throws Unknown.
 class Specialiser {
 public:
     Specialiser(Words code, Words constants) : code_(code), constants_(constants), facts_(code[bound_word]) {
@@ -174,8 +174,8 @@ private:
         return result_of(instruction[3], operand);
     }
 
-    // Follows a function to its first block, or a block to its calls and branches. Only one branch of a constant `if`
-    // is followed. Branches that end a loop stay.
+    // Follows the first block of a function, or the calls and branches of a block. If the condition of a branch is
+    // constant, follows only one side. Branches that end a loop stay.
     void follow(std::uint32_t id) {
         const std::size_t place = fact(id).place;
         if (place == 0)
@@ -232,14 +232,14 @@ private:
         });
     }
 
-    // Most instructions have their result in word 2. The others have another kept instruction's result there, so noting
-    // it is harmless.
+    // Most instructions have their result in word 2. For the others, word 2 is the result of another kept instruction,
+    // so noting it is harmless.
     void note_result(Words instruction, std::uint32_t block) {
         const Opcode opcode = opcode_of(instruction);
         if (block != 0 && !fact(block).is_reached)
             return;
         if (opcode == OpLoopMerge && !fact(instruction[2]).is_reached)
-            throw Unknown(); // The loop would lack its continue block.
+            throw Unknown(); // the loop would lack its continue block
         if ((opcode == OpSelectionMerge && fact(block).taken == 0) || opcode == OpLoopMerge)
             fact(instruction[1]).is_merge = true;
         const bool is_type = opcode >= OpTypeVoid && opcode <= OpTypeForwardPointer;
@@ -304,7 +304,7 @@ private:
         }
     }
 
-    // Drops values from blocks that no longer branch here.
+    // Drops values from blocks that no longer branch to this one.
     void write_phi(Words phi, std::uint32_t block) {
         const std::size_t start = result_.size();
         put(phi.first(3));

@@ -1,4 +1,3 @@
-// Makes pipelines of specialised code.
 #pragma once
 
 #include "lib/kernel/point_sequence.h"
@@ -19,7 +18,6 @@ inline void set_device_constants(std::span<std::uint32_t> constants, const vulka
     constants[gpu::ID_POINT_BLOCKS] = device.limits().max_uniform_range / std::uint32_t{sizeof(PointBlock)};
 }
 
-// By constant_id.
 inline vulkan::ComputePipeline specialised_pipeline(vulkan::Device &device, std::span<const std::uint32_t> spirv,
                                                     std::span<const vulkan::Binding> bindings,
                                                     std::uint32_t push_constant_bytes,

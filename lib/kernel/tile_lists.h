@@ -1,4 +1,4 @@
-// Lists of tiles for dispatches. An entry is a tile's first pixel in the film.
+// Lists of tiles for dispatches. An entry is the film index of a tile's first pixel.
 #pragma once
 
 #include "lib/film/tile_grid.h"

@@ -12,7 +12,7 @@ struct TileSlice {
     std::span<const std::uint32_t> tiles;
     SampleRange before; // hull of the tiles' samples; may be empty
     SampleRange samples;
-    bool takes; // false if another device does
+    bool takes; // false if another device takes the samples
 
     std::uint64_t split() const { return split_of(hull_of(before, samples)); }
 

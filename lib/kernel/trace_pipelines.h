@@ -20,20 +20,21 @@ namespace pt {
 
 class TracePipelines {
 public:
-    // Enough for alternating scenes. Work in flight uses at most the last two.
+    // Enough for scenes that alternate. Running work uses at most the last two.
     static constexpr std::size_t most_kept = 8;
 
     explicit TracePipelines(vulkan::Device &device, KernelCode code = embedded_code());
 
-    // Moves out the driver cache's key. Call this once.
+    // Moves out the key of the driver's cache. May be called once.
     std::string take_kernel_key() noexcept { return std::move(kernel_key_); }
 
-    // Returns the kernel for these features or, where faster, one for this scene alone. Both compute the same bits. The
-    // first scene gets its own at once, because some kernel must be built. Others wait (own_kernel_clock.h). `words` is
-    // the scene buffer. `seconds` were spent on the scene so far. The result is valid until the next call.
+    // Returns the kernel for these features or, where faster, a kernel for this scene alone. Both compute the same
+    // bits. The first scene gets its own kernel at once, because some kernel must be built. Later scenes wait
+    // (own_kernel_clock.h). `words` is the scene buffer. `seconds` is the time spent on this scene. The result is valid
+    // until the next call.
     const vulkan::ComputePipeline &trace(const Features &features, std::span<const glm::vec4> words, double seconds);
 
-    // Callers that prepare ahead use at_once. Polls use never.
+    // at_once is for callers that prepare ahead, and never for polls.
     enum class OwnKernels { when_they_pay, at_once, never };
     void build_own(OwnKernels when) { own_kernels_ = when; }
 

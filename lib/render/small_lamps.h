@@ -27,7 +27,7 @@ struct LampPiece {
     double enough_samples(bool is_random) const;
 };
 
-// Returns the lamps in these rows that less than half of a pixel's samples hit. Such lamps are smaller than half a
+// Returns the lamps in these rows that less than half of a pixel's samples hit. These lamps are smaller than half a
 // pixel, move, are out of focus, or are behind translucent spheres. Lamps whose centers are behind opaque surfaces are
 // left out.
 std::vector<LampPiece> small_lamps_in_view(const PreparedScene &scene, const Camera &camera, std::uint32_t width,

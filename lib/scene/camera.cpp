@@ -14,8 +14,9 @@ namespace {
 
 constexpr double default_vertical_fov = std::numbers::pi / 4.0;
 
-// The least sine s of the angle between up and the view. With u = 2^-53, errors are 2 u in forward, u in up and 2 u in
-// their cross product, so 5 u / s in the unit vectors. For s >= 5 * 2^-29 this is below float32's rounding, 2^-24.
+// The least sine s of the angle between `up` and the view. With u = 2^-53, errors are 2 u in forward, u in up and 2 u
+// in their cross product, which give 5 u / s in the unit vectors. For s >= 5 * 2^-29 this is below float32's rounding,
+// 2^-24.
 constexpr double min_sine = 0x1p-26;
 
 // The image plane's distance in pixels, height / (2 tan(fov / 2)), must be at most 1e18, so tan(fov / 2) >= 2^31 / 1e18
@@ -78,7 +79,7 @@ void check_fields(const pt_camera &camera) {
     violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
 }
 
-// Rounds to 40 bits, because films must match and systems' tangents differ in the last bits.
+// Systems' tangents differ in the last bits, but films must match, so the tangent is rounded to 40 bits.
 double tangent(double angle) {
     int exponent = 0;
     const double mantissa = std::frexp(std::tan(angle), &exponent);
@@ -98,8 +99,8 @@ Camera validated_camera(const pt_camera &source) {
     subject.require(target != position, "target", target, "must differ from position");
     violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
 
-    // If focus >= radius, a far point's blur, radius / focus times the image plane's distance, is at most that
-    // distance.
+    // A far point's blur is radius / focus times the image plane's distance. For focus >= radius this is at most the
+    // plane's distance.
     const double focus = camera.focus > 0.0 ? camera.focus : glm::distance(target, position);
     subject.require(camera.aperture <= 2.0 * focus, "aperture", camera.aperture,
                     "must be at most twice the focus (" + number_text(focus) + ")");

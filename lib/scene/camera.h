@@ -1,4 +1,3 @@
-// A valid camera, with defaults applied.
 #pragma once
 
 #include <pt/pt.h>
@@ -15,19 +14,19 @@ struct Camera {
     glm::dvec3 right; // orthonormal with up and forward; right x up points backwards
     glm::dvec3 up;
     glm::dvec3 forward;
-    double tan_half_fov; // of half the vertical angle; 0: parallel rays
+    double tan_half_fov; // of half the vertical angle; 0 for parallel rays
     double shutter_open; // 0 <= open <= close <= 1
     double shutter_close;
-    double vertical_extent = 0.0; // height of an orthographic view; 0: perspective
+    double vertical_extent = 0.0; // height of an orthographic view; 0 for perspective
     double start_distance = 0.0;  // from pt_camera.position (ray_start.h)
-    double start_radius = 0.0;    // of the disc around position where rays start; 0: a point
-    double lens_radius = 0.0;     // 0: a pinhole or parallel rays
-    double focus = 0.0;           // along forward; 0: no lens
+    double start_radius = 0.0;    // radius of the disc where rays start; 0 for a point
+    double lens_radius = 0.0;     // 0 for a pinhole or parallel rays
+    double focus = 0.0;           // along forward; 0 without a lens
 
     bool is_orthographic() const { return vertical_extent > 0.0; }
     bool has_lens() const { return lens_radius > 0.0; }
 
-    // Radius of the disc that an image point's rays fill at a depth.
+    // Radius of the disc that the rays of an image point fill at this depth.
     double spread(double depth) const { return has_lens() ? lens_radius * std::abs(1.0 - depth / focus) : 0.0; }
 };
 

@@ -28,7 +28,7 @@ Element element(const pt_column &column, std::size_t index) {
 
 static_assert(sizeof(glm::vec3) == 3 * sizeof(float) && sizeof(glm::dvec3) == 3 * sizeof(double));
 
-// Calls use(read), where read(index) is a float or double.
+// Calls use(read). read(index) is a float or double.
 template <typename Use>
 decltype(auto) with_numbers(const pt_column &column, Use use) {
     if (column.type == PT_TYPE_FLOAT32)

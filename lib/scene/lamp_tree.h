@@ -9,12 +9,12 @@
 namespace pt {
 
 // The shape depends only on the number of lamps, so moving lamps needs no new kernel. The top has one to four groups of
-// four nodes. Each node has a group below it. The last level's nodes are slots for lamps.
+// four nodes. Each node has a group below it. The nodes of the last level are slots for lamps.
 class LampTreeShape {
 public:
     explicit LampTreeShape(std::uint32_t lamp_count);
 
-    std::uint32_t levels() const { return levels_; } // below the top; >= 1
+    std::uint32_t levels() const { return levels_; } // levels below the top, >= 1
     std::uint32_t top_groups() const { return top_groups_; }
     std::uint64_t slots() const { return 4 * groups_of(levels_); }
 
@@ -24,7 +24,7 @@ public:
     }
     std::uint64_t all_groups() const { return groups_above(levels_ + 1); }
 
-    // The first lamp at or after this slot.
+    // First lamp at or after this slot.
     std::uint32_t first_lamp(std::uint64_t slot) const {
         return static_cast<std::uint32_t>((slot * lamp_count_ + slots() - 1) / slots());
     }
@@ -35,8 +35,8 @@ private:
     std::uint32_t top_groups_;
 };
 
-// Returns emitting spheres in the order of slots, by their places at time 1/2. If some are no lamps for a camera, the
-// others keep their order.
+// Returns emitting spheres in the order of slots, by their positions at time 1/2. If a camera does not see some as
+// lamps, the others keep their order.
 std::vector<std::uint32_t> order_in_lamp_tree(const Scene &scene);
 
 } // namespace pt

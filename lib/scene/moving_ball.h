@@ -1,4 +1,5 @@
-// A ball that moves along a line, or a capsule, which fills the whole line at once. Only this file distinguishes them.
+// A ball that moves along a line, or a capsule, which fills the whole line at once. Only this file distinguishes the
+// two.
 #pragma once
 
 #include "lib/base/digest.h"
@@ -26,7 +27,7 @@ private:
 };
 
 struct MovingBall {
-    glm::dvec3 open; // at the beginning
+    glm::dvec3 open; // center at the beginning
     glm::dvec3 way;  // displacement until the end
     double radius;
     Kind kind = Kind::ball;
@@ -52,11 +53,11 @@ inline MovingBall seen_ball(const MovingBall &ball, const Camera &camera) {
             (camera.shutter_close - camera.shutter_open) * ball.way, ball.radius};
 }
 
-// Within this share of the radius, float32 may misplace points.
+// Within this fraction of the radius, float32 may misplace points.
 inline constexpr double side_margin = 0x1p-16;
 
-// Balls that differ by more than this share of their radii are distinct. A distance d has an error of 2^-22 d, which is
-// this share at 2^20 radii. There the rounding of centers is visible anyway.
+// Balls that differ by more than this fraction of their radii are distinct. A distance d has an error of 2^-22 d. This
+// equals the fraction at 2^20 radii, where rounding of centers is visible anyway.
 inline constexpr double two_spheres = 0.25;
 
 inline double with_margin(double length) {
@@ -70,12 +71,12 @@ inline double least_distance(const glm::dvec3 &open, const glm::dvec3 &way) {
     return glm::length(open + nearest * way);
 }
 
-// Whether the origin is ever inside the ball, or float32 cannot tell.
+// Whether the origin is at any time inside the ball, or float32 cannot tell.
 inline bool may_hold_origin(const MovingBall &ball, double slack = 0.0) {
     return !(least_distance(ball.open, ball.way) > with_margin(ball.radius) + slack);
 }
 
-// Whether both surfaces nearly coincide. One of a capsule's balls suffices.
+// Whether both surfaces nearly coincide. For capsules, one of the end balls suffices.
 inline bool nearly_coincide(const MovingBall &ball, const MovingBall &other) {
     const double apart = other.kind == Kind::capsule
                              ? std::max(least_distance(other.open - ball.open, other.way) - glm::length(ball.way), 0.0)
@@ -102,10 +103,10 @@ inline bool lies_apart(const MovingBall &ball, const MovingBall &surface) {
     return is_beside || is_within;
 }
 
-// The ball's word in the kernel (shaders/gpu_layout.h). A capsule whose 1 / length overflows is far shorter than any
-// radius, and becomes a ball.
+// The ball's word in the kernel (shaders/gpu_layout.h). If a capsule is so short that 1 / length overflows, it becomes
+// a ball.
 inline glm::vec4 way_word(const MovingBall &ball) {
-    const glm::vec3 rounded = glm::vec3(ball.way) + 0.0F; // -0 + 0 = +0, for twins
+    const glm::vec3 rounded = glm::vec3(ball.way) + 0.0F; // -0 becomes +0, for twins
     if (ball.kind == Kind::ball)
         return {rounded, 0.0F};
     const auto inverse = static_cast<float>(1.0 / glm::length(ball.way));
@@ -116,7 +117,7 @@ inline MovingBall surface_of(const glm::dvec3 &open, double radius, const glm::v
     return {open, glm::dvec3(way), radius, way.w > 0.0F ? Kind::capsule : Kind::ball};
 }
 
-// Balls add nothing, so scenes without capsules keep their digests.
+// Balls add nothing, so the digests of scenes without capsules stay.
 inline void add_kind(Digest &digest, Kind kind) {
     if (kind != Kind::ball)
         digest.add(std::uint64_t{static_cast<std::uint8_t>(kind)} - 1);

@@ -11,7 +11,7 @@ namespace pt {
 
 namespace {
 
-// -0 equals 0, as for materials.
+// -0 equals 0, as in comparisons of materials.
 using MaterialKey = std::array<float, 11>;
 
 MaterialKey key_of(const Material &material) {
@@ -83,11 +83,11 @@ void add(Digest &digest, const Material &material) {
     digest.add(material.specular);
     digest.add(material.emission);
     digest.add(static_cast<double>(material.glossiness));
-    if (material.hidden) // Other scenes keep their digests.
+    if (material.hidden) // keeps the digests of other scenes
         digest.add(std::uint64_t{PT_MATERIAL_HIDDEN_FROM_CAMERA});
 }
 
-// Materials are numbered in order of use.
+// Numbers materials in order of use.
 std::string digest_of(const Scene &scene) {
     Digest digest;
     std::map<MaterialKey, std::uint64_t> numbers;

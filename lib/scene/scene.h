@@ -32,7 +32,7 @@ inline bool is_glossy(const Material &material) {
     return material.specular != glm::vec3(0.0F);
 }
 
-// In steps of 1 / TREE_OPACITY_STEPS. If all spheres are opaque, they have no_opacity.
+// Opacities are in steps of 1 / TREE_OPACITY_STEPS. If all spheres are opaque, all have no_opacity.
 inline constexpr std::int16_t no_opacity = -1;
 inline constexpr auto opaque = static_cast<std::int16_t>(gpu::TREE_OPACITY_STEPS);
 inline constexpr double least_opaque = 1.0 - 0.5 / gpu::TREE_OPACITY_STEPS;
@@ -44,7 +44,7 @@ inline double passing_share(std::int16_t opacity) {
 struct Sphere {
     glm::dvec3 center;
     double radius;
-    glm::dvec3 motion;      // from time 0 to 1; for capsules between the ends
+    glm::dvec3 motion;      // from time 0 to 1; for capsules from end to end
     std::uint32_t material; // index into Scene::materials
     Kind kind = Kind::ball;
     std::int16_t opacity = no_opacity; // in steps
@@ -54,9 +54,8 @@ struct Sphere {
     MovingBall ball() const { return {center, motion, radius, kind}; }
 };
 
-// dot(normal, x) + offset = 0
 struct Plane {
-    glm::dvec3 normal; // unit vector
+    glm::dvec3 normal; // unit vector; dot(normal, x) + offset = 0
     double offset;
     std::uint32_t material;
 };
@@ -66,7 +65,7 @@ struct Scene {
     std::vector<Sphere> spheres;     // pt_scene.spheres, then the arrays
     std::vector<Plane> planes;
     std::vector<std::uint32_t> array_starts = {};
-    std::vector<std::uint32_t> indices = {}; // in the caller's scene; empty: all are kept
+    std::vector<std::uint32_t> indices = {}; // indices in the caller's scene; empty if all are kept
 };
 
 struct CheckedScene;
@@ -74,7 +73,7 @@ struct CheckedScene;
 // Takes all spheres, or those with the ascending indices `only`.
 Scene owned_scene(CheckedScene checked, const std::vector<std::uint32_t> *only = nullptr);
 
-// For a BrokenRule.
+// The place of a sphere in messages.
 struct SpherePlace {
     const char *subject;
     std::int64_t index;
@@ -85,8 +84,8 @@ SpherePlace place_of_sphere(const Scene &scene, std::size_t position);
 
 SpherePlace place_of_index(const Scene &scene, std::size_t index);
 
-// Films distinguish scenes by this digest of the surfaces and their materials. It depends on the surfaces' order, but
-// not on structs or columns, unused materials, or the materials' order and repetition.
+// Films tell scenes apart by this digest of the surfaces and their materials. The order of surfaces counts. Structs or
+// columns, unused materials, and the materials' order and repetition do not.
 std::string digest_of(const Scene &scene);
 
 void add(Digest &digest, const Material &material);

@@ -12,41 +12,41 @@
 namespace pt {
 
 struct SeenSphere : MovingBall {
-    double distance;        // of the center as the shutter opens
+    double distance;        // distance of the center as the shutter opens
     std::uint32_t material; // index into Scene::materials
     std::uint32_t index;    // index into Scene::spheres
     bool emits;
     bool hidden;
-    bool is_flat; // The kernel treats it as a curved plane.
+    bool is_flat; // whether the kernel treats it as a curved plane
 
     SeenSphere(const Sphere &sphere, const Material &of_sphere, const Camera &camera, std::uint32_t of_index = 0);
 
-    // The camera's height as the shutter opens; negative inside.
+    // Distance of the camera from the surface as the shutter opens. Negative inside.
     double height() const { return distance - radius; }
 };
 
 // A plane, or a huge sphere as a slightly curved plane. For x relative to the camera and y = x + offset * normal:
 // dot(normal, y) + curvature / 2 * dot(y, y) = 0 as the shutter opens.
 struct CurvedPlane {
-    glm::dvec3 normal; // at the point nearest to the camera; outward for a sphere
-    double offset;     // of the camera, positive on the normal's side
+    glm::dvec3 normal; // at the point nearest to the camera; outwards for a sphere
+    double offset;     // distance of the camera, positive on the normal's side
     double curvature;  // 1 / radius; 0 for a plane
-    glm::dvec3 way;    // while the shutter is open
+    glm::dvec3 way;    // motion while the shutter is open
     std::uint32_t material;
-    std::uint32_t index; // into Scene::planes, or Scene::spheres if curved
+    std::uint32_t index; // index into Scene::planes, or into Scene::spheres if curved
     bool hidden = false;
 };
 
 // Turns the normal towards the camera.
 CurvedPlane curved_plane(const Plane &plane, const Material &of_plane, const Camera &camera, std::uint32_t index = 0);
 
-// sphere.is_flat must hold. With center and radius in float32, the surface's error would be 2^-24 of the radius. The
+// sphere.is_flat must hold. A center and radius in float32 would give the surface an error of 2^-24 of the radius. The
 // plane's error is 2^-24 of the scene's size.
 CurvedPlane curved_plane(const SeenSphere &sphere);
 
 struct SeenScene {
     std::vector<SeenSphere> spheres;
-    std::vector<CurvedPlane> planes; // not curved
+    std::vector<CurvedPlane> planes;
 
     template <typename Is>
     bool any_surface(const Is &is) const {

@@ -32,12 +32,12 @@ constexpr ElementType index_type{[](std::uint32_t type) { return type == PT_TYPE
 constexpr ElementType color_type{[](std::uint32_t type) { return real_type.is(type) || type == PT_TYPE_SRGB8; },
                                  "must be PT_TYPE_FLOAT32 (1), PT_TYPE_FLOAT64 (2) or PT_TYPE_SRGB8 (4)"};
 
-// A branch on the sign would be mispredicted.
+// Branches on the sign would be mispredicted.
 bool is_coordinate(double value) {
     return is_length(std::abs(value));
 }
 
-// Lamps are sampled by the cone of a ball.
+// Lamps are sampled by the cone around a ball, so capsules must be dark.
 const char *const dark_rule = "must be of a material without emission: capsules are no lamps";
 
 bool is_dark(const pt_material &material) {

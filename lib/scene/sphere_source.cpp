@@ -38,7 +38,6 @@ bool is_any_translucent(const pt_sphere_array &array) {
     return any;
 }
 
-// at(i) is the row of the i-th sphere.
 template <typename At>
 void read_columns(const pt_sphere_array &columns, At at, std::span<Sphere> spheres) {
     with_vectors(columns.center, [&](auto center) {
@@ -164,7 +163,7 @@ void SphereSource::read_colors(std::span<const std::uint32_t> indices, std::span
     });
 }
 
-// Empty parts begin where the next one does, so a sphere is in the last part that begins at or before its index.
+// An empty part begins where the next part does. A sphere is in the last part that begins at or before its index.
 template <typename Element, typename Read>
 void SphereSource::read_parts(std::span<const std::uint32_t> indices, std::span<Element> elements,
                               Read read_part) const {

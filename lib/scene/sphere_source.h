@@ -32,17 +32,18 @@ public:
 
     bool are_mere_balls() const { return others_count_ == 0; }
 
-    // Ascending indices; none if there are more than `most`.
+    // Ascending indices. None if there are more than `most`.
     std::vector<std::uint32_t> other_kinds(std::size_t most) const;
 
     // for_each() is faster for many spheres.
     Sphere operator[](std::uint32_t index) const;
     glm::vec3 color(std::uint32_t index) const;
 
-    // A unit of work is a sphere, or an array with one material.
+    // Each sphere, or each array with one material, is a unit of work.
     void mark_materials(std::vector<bool> &used, WorkProgress &progress) const;
 
-    // Calls use(index, sphere, color) in order, a unit of work each. `color` is a factor of the material's diffuse.
+    // Calls use(index, sphere, color) in order. `color` is a factor of the material's diffuse. Each sphere is a unit of
+    // work.
     template <typename Use>
     void for_each(WorkProgress &progress, Use use) const {
         std::array<std::uint32_t, chunk_size> indices;

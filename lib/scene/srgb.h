@@ -1,5 +1,5 @@
-// Decodes sRGB bytes (IEC 61966-2-1). The table is made at compile time, so that a scene's bits do not depend on a
-// maths library.
+// Decodes sRGB bytes (IEC 61966-2-1). The table is made at compile time, so a scene's bits do not depend on a maths
+// library.
 #pragma once
 
 #include <array>

@@ -10,9 +10,9 @@
 
 namespace pt {
 
-// Hashes of words decide which spheres let a ray pass (opacity_generator() of shaders/tree_walk.glsl). With equal
-// words, either all spheres would let it pass or none. `ways` has motions or axes, or is empty. `spheres` has scene
-// indices, so that the result does not depend on the tree.
+// Hashes of words decide which spheres let a ray pass (opacity_generator() of shaders/tree_walk.glsl). If spheres had
+// equal words, a ray would pass all of them or none. `ways` has motions or axes, or is empty. `spheres` has scene
+// indices, so the result does not depend on the tree.
 void set_coincident_apart(std::span<glm::uvec4> places, std::span<const glm::uvec4> ways,
                           std::span<const std::uint32_t> spheres, WorkProgress &progress);
 

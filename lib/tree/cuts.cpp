@@ -14,7 +14,7 @@ int bins_for(std::size_t spheres) {
     return spheres > 64 ? most_bins : 8;
 }
 
-// Bins of equal width along the longest axis. Other axes hardly help for large parts.
+// Bins of equal width along the longest axis. In large parts, other axes hardly help.
 class Bins {
 public:
     explicit Bins(const Part &part) :
@@ -84,7 +84,7 @@ BinCut best_cut(const BinContents &contents, const Bins &bins) {
     return best;
 }
 
-// If the sample lies in a single bin, uses all spheres.
+// If all spheres of the sample are in one bin, uses all spheres of the part.
 BinCut best_cut(const Part &part, const Bins &bins) {
     BinContents sample;
     for_each_or_sample(part.items, [&](const TreeItem &item) { sample.add(item, bins); });
@@ -99,7 +99,7 @@ BinCut best_cut(const Part &part, const Bins &bins) {
 
 } // namespace
 
-// Has no branches, because half of them would be mispredicted.
+// Half of all branches would be mispredicted, so there are none.
 Halves binned_halves(const Part &part) {
     const Bins bins(part);
     const BinCut cut = best_cut(part, bins);

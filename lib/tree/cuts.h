@@ -1,4 +1,3 @@
-// Divides a group of spheres in two.
 #pragma once
 
 #include "lib/tree/part.h"

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint32_t empty = ~std::uint32_t{0};
 constexpr unsigned place_bits = 26;
-constexpr std::uint32_t tag_count = 63; // The 64th tag would make a used slot look empty.
+constexpr std::uint32_t tag_count = 63; // with the 64th tag, a used slot could look empty
 
 std::uint64_t hash_of(const glm::uvec4 &word) {
     const auto two = [](std::uint32_t low, std::uint32_t high) { return std::uint64_t{high} << 32 | low; };
@@ -32,7 +32,6 @@ public:
 
     void fetch(std::uint64_t hash) const { __builtin_prefetch(&slots_[hash & (slots_.size() - 1)]); }
 
-    // Returns false if an equal word exists or no slot nearby is free.
     bool add(std::uint32_t place, std::uint64_t hash) {
         constexpr std::size_t most_looks = 1000;
         const std::uint32_t tag = static_cast<std::uint32_t>(hash >> 32) % tag_count << place_bits;
@@ -55,7 +54,7 @@ private:
 
 } // namespace
 
-// Prefetches some slots while it compares others.
+// Prefetches slots while it compares others.
 bool has_equal_words(std::span<const glm::uvec4> words, WorkProgress &progress) {
     Slots slots(words);
     std::array<std::uint64_t, 32> hashes;

@@ -1,4 +1,3 @@
-// Finds out whether any two of many words are equal.
 #pragma once
 
 #include "lib/base/work_progress.h"
@@ -9,8 +8,8 @@
 
 namespace pt {
 
-// Uses up to 11 bytes per word. Takes at most 2^26 words, each a unit of work. Also returns true if the search would
-// take long, which random hashes do not cause.
+// Returns true if two words are equal, and also if the search would take long, which random hashes do not cause. Uses
+// up to 11 bytes per word. Takes at most 2^26 words. Each word is a unit of work.
 bool has_equal_words(std::span<const glm::uvec4> words, WorkProgress &progress);
 
 } // namespace pt

@@ -13,14 +13,14 @@
 namespace pt {
 
 struct Grid {
-    // Differences to a camera twice as far away do not overflow.
+    // Differences to a camera at twice this distance do not overflow.
     static constexpr double reach = gpu::TREE_REACH;
 
     glm::dvec3 middle; // in scene units
     double step;       // scene units, a power of two
     double steps_per_unit;
 
-    // The finest grid that covers this distance along each axis.
+    // The finest grid that reaches this distance along each axis.
     Grid(const glm::dvec3 &middle_of, double distance) :
         middle(middle_of),
         step(step_for(distance)),
@@ -34,7 +34,7 @@ struct Grid {
     glm::dvec3 point(const glm::ivec3 &at) const { return middle + step * glm::dvec3(at); }
 
 private:
-    // The smallest power of two for which `reach` steps cover the distance. Float32 must hold it and its inverse.
+    // The smallest power of two for which `reach` steps cover the distance. float32 must hold the step and its inverse.
     static double step_for(double distance) {
         int exponent = 0;
         std::frexp(distance / reach, &exponent);

@@ -1,4 +1,3 @@
-// Finds where most points are.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -10,7 +9,7 @@
 
 namespace pt {
 
-// Returns medians of about a thousand points. A few distant points do not change them.
+// Returns the medians of about a thousand points, so a few distant points have no effect.
 template <typename CenterOf>
 glm::dvec3 middle_of(std::uint32_t count, CenterOf center_of) {
     constexpr std::uint32_t enough = 1000;

@@ -40,7 +40,6 @@ struct Box {
     float extent(std::size_t axis) const { return high[axis] - low[axis]; }
     bool is_point() const { return extent(0) == 0.0F && extent(1) == 0.0F && extent(2) == 0.0F; }
 
-    // Half of the surface area; infinite for an empty box.
     float surface() const {
         const Vector sides = high - low;
         const Vector products = sides * __builtin_shufflevector(sides, sides, 1, 2, 0, 3);
@@ -53,13 +52,13 @@ struct Box {
     }
 };
 
-// Nearly as good as all spheres (tests/bench/NOTEBOOK.md).
+// Samples of this size give nearly as good cuts as all spheres (tests/bench/NOTEBOOK.md).
 inline constexpr std::size_t sample_size = 4096;
 
 inline constexpr std::size_t sampled_from = 4 * sample_size;
 
-// Calls use(item) for all items of a small group. Takes one random item from each of sample_size runs of a large group,
-// because its order may have patterns. The result is deterministic.
+// Calls use(item) for all items of a small group. A large group may have a regular order, so one random item of each of
+// sample_size runs is used instead. The result is deterministic.
 template <typename Use>
 void for_each_or_sample(Items items, Use use) {
     if (items.size() < sampled_from) {
@@ -76,7 +75,7 @@ void for_each_or_sample(Items items, Use use) {
     }
 }
 
-// The box of all centers, or of a sample's centers if these differ.
+// The box of all centers. In large groups a sample's box suffices, if its centers differ.
 inline Box centres_of(Items items) {
     Box box;
     for_each_or_sample(items, [&](const TreeItem &item) { box.add_centre(item); });
@@ -92,7 +91,7 @@ inline Box balls_of(Items items) {
     return box;
 }
 
-// The boxes of a large part are a sample's.
+// Large parts have the boxes of a sample.
 struct Part {
     Items items;
     Box centres; // a point only if all centers are equal

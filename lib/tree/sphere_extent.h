@@ -1,4 +1,3 @@
-// The extent of a tree's spheres over time.
 #pragma once
 
 #include "lib/base/work_progress.h"
@@ -53,7 +52,7 @@ struct SphereExtent {
             moves = moves || spheres[index].ball().moves();
     }
 
-    // Extends one step farther, because places are rounded.
+    // Extends by one step more, because places are rounded.
     Grid grid() const {
         const glm::dvec3 half = 0.5 * box.high - 0.5 * box.low;
         return {0.5 * box.low + 0.5 * box.high, std::max({half.x, half.y, half.z, largest_radius}) * (1.0 + 0x1p-28)};

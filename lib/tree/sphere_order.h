@@ -1,4 +1,3 @@
-// The shape of a tree.
 #pragma once
 
 #include "lib/base/work_progress.h"
@@ -12,7 +11,7 @@
 
 namespace pt {
 
-// A bounding ball in any unit. It contains the whole way of a moving sphere.
+// A bounding ball in any unit. Contains the whole motion of a moving sphere.
 struct TreeItem {
     std::array<float, 4> centre_radius;
     std::uint32_t sphere;
@@ -29,18 +28,18 @@ struct TreeLinks {
 };
 
 struct TreeShape {
-    std::vector<TreeLinks> nodes;       // the root first, each before its children
-    std::vector<std::uint32_t> spheres; // index by slot
+    std::vector<TreeLinks> nodes;       // the root first, each node before its children
+    std::vector<std::uint32_t> spheres; // sphere index by slot
     std::uint32_t depth;                // nodes on the longest path
 };
 
-// The geometry, and material and color of translucent spheres. Spheres with equal bits are twins, of which only the
-// first is kept.
+// Geometry, and for translucent spheres material and color. Spheres with equal bits are twins, of which only the first
+// is kept.
 using SphereBits = std::array<std::uint32_t, 10>;
 using BitsOfSphere = std::function<SphereBits(std::uint32_t)>;
 
-// Cuts nodes where the sum of surface times expected nodes is least (Goldsmith and Salmon 1987; Wald 2007). Halves deep
-// nodes, so the depth is at most 27 for 2^26 spheres. An item is a unit of work.
+// Cuts nodes where the sum of surface times expected nodes is least (Goldsmith and Salmon 1987; Wald 2007). Deep nodes
+// are halved, so the depth is at most 27 for 2^26 spheres. Each item is a unit of work.
 TreeShape tree_shape(std::vector<TreeItem> items, const BitsOfSphere &bits_of, WorkProgress &progress);
 
 } // namespace pt

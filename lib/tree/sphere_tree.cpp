@@ -21,11 +21,11 @@ namespace {
 
 constexpr std::uint32_t nowhere = ~std::uint32_t{0};
 
-// If the old shape's cost differs by this factor, a new tree is built. Rays would be about an eighth slower. A new tree
-// takes twice the time of an old shape.
+// A new tree is built if the old shape's cost has grown by this factor. Rays would be about an eighth slower. Building
+// takes twice the time of reuse.
 constexpr double most_growth = 1.25;
 
-// Shares of the remaining work, for a million spheres.
+// Fractions of the remaining work, for a million spheres.
 constexpr double share_of_items = 0.1;
 constexpr double share_of_shape = 0.65;
 constexpr double share_of_spheres = 0.5;
@@ -119,7 +119,7 @@ SphereTree::SphereTree(const SphereExtent &extent, const SphereSource &spheres,
     lamp_materials_.reserve(extent.lamp_count);
 }
 
-// The lamps' block grows later, without reallocation.
+// Leaves room for the lamps' block, which comes later.
 void SphereTree::make_room(std::size_t node_count, WorkProgress &progress) {
     sphere_count_ = static_cast<std::uint32_t>(spheres_->size());
     const std::uint32_t quarter = (sphere_count_ + 3) / 4;
@@ -131,7 +131,7 @@ void SphereTree::make_room(std::size_t node_count, WorkProgress &progress) {
     first_color_ = first_surface_ + quarter;
     first_lamp_ = first_color_ + (has_colors_ ? quarter : 0);
     words_.reserve(first_lamp_ + lamp_materials_.capacity());
-    // Pieces report progress, because touching new memory takes long.
+    // Touching new memory takes long, so pieces report progress.
     constexpr std::size_t some = std::size_t{1} << 20;
     while (words_.size() < first_lamp_) {
         words_.resize(std::min<std::size_t>(words_.size() + some, first_lamp_));
@@ -204,9 +204,9 @@ bool SphereTree::has_alike(WorkProgress &progress) const {
 void SphereTree::add_to(Digest &digest) const {
     digest.add(grid_.middle);
     digest.add(grid_.step);
-    if (has_opacities_) // Low bits of radii then have another meaning.
+    if (has_opacities_) // the low bits of radii mean opacities
         digest.add(std::uint64_t{gpu::TREE_OPACITY_STEPS});
-    std::vector<std::uint32_t> places(scene_sphere_count_, nowhere); // left-out spheres and twins
+    std::vector<std::uint32_t> places(scene_sphere_count_, nowhere); // left-out spheres and twins stay nowhere
     for (std::uint32_t place = 0; place < sphere_count_; ++place)
         places[(*spheres_)[place]] = place;
     std::erase(places, nowhere);
@@ -234,7 +234,7 @@ bool SphereTree::is_far(const Camera &camera) const {
     return !(std::max({steps.x, steps.y, steps.z}) <= 2.0 * Grid::reach);
 }
 
-// Whether the property holds for any sphere whose rounded box meets the box.
+// Whether any sphere whose rounded box meets the box has the property.
 template <typename Property>
 bool SphereTree::any_in(const GridBox &box, Property &&property) const {
     std::vector<std::uint32_t> nodes{0};
@@ -347,7 +347,7 @@ void SphereTree::visit(const Camera &camera, const std::function<bool(const Movi
 }
 
 bool SphereTree::finds_close_lamps(WorkProgress &progress) const {
-    constexpr std::size_t as_many_spheres = 16; // A lamp takes the time of this many spheres.
+    constexpr std::size_t as_many_spheres = 16; // a lamp takes the time of this many spheres
     progress.enter(share_of_close_lamps, static_cast<double>(lamp_materials_.size()));
     for (std::uint32_t lamp = 0; lamp < lamp_materials_.size(); ++lamp) {
         progress.add(1.0, as_many_spheres);

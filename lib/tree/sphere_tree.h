@@ -1,6 +1,6 @@
 // The tree of spheres in the kernel's layout. All devices share it.
 //
-// The shape only affects speed. Spheres that have moved a little can reuse an older shape, which takes a fraction of
+// The shape affects only speed. Spheres that have moved a little can reuse an older shape, which takes a fraction of
 // the time.
 #pragma once
 
@@ -27,13 +27,13 @@ namespace pt {
 
 class SphereTree {
 public:
-    // Contains all spheres except left_out (ascending indices). At least one must remain. `materials` are the whole
+    // Contains all spheres except left_out (ascending indices). One sphere must remain. `materials` are the whole
     // scene's.
     SphereTree(const SphereSource &spheres, std::span<const std::uint32_t> left_out,
                std::span<const TreeMaterial> materials, WorkProgress &progress);
 
-    // Reuses another tree's shape, with each sphere in its old slot. Returns nothing if a new tree would be much
-    // better, other spheres are left out, or a tree has twins, which share a slot.
+    // Reuses another tree's shape. Each sphere keeps its slot. Returns nothing if a new tree would be much better,
+    // other spheres are left out, or a tree has twins, which share a slot.
     static std::optional<SphereTree> with_shape_of(const SphereTree &other, const SphereSource &spheres,
                                                    std::span<const std::uint32_t> left_out,
                                                    std::span<const TreeMaterial> materials, WorkProgress &progress);
@@ -46,10 +46,10 @@ public:
 
     gpu::TreeFrame frame(const Camera &camera) const;
 
-    // Adds the grid and each sphere's words, in the scene's order.
+    // Adds the grid and the words of all spheres in the scene's order.
     void add_to(Digest &digest) const;
 
-    // Expected number of nodes that a ray through the tree visits. It is the sum of their surfaces over the root's.
+    // Expected number of nodes that a ray through the tree visits: the sum of their surfaces over the root's surface.
     double cost() const { return cost_; }
 
     std::uint32_t sphere_count() const { return sphere_count_; }
@@ -59,7 +59,7 @@ public:
     Kinds kinds() const { return kinds_; }
     bool has_opacities() const { return has_opacities_; }
 
-    // spheres()[slot] is a scene index.
+    // Scene index by slot.
     std::span<const std::uint32_t> spheres() const { return *spheres_; }
     std::uint32_t scene_sphere_count() const { return scene_sphere_count_; }
     bool has_colors() const { return has_colors_; }
@@ -68,13 +68,13 @@ public:
 
     Sphere lamp(std::uint32_t number) const;
 
-    // Whether the camera is ever inside a sphere, or float32 cannot tell.
+    // Whether the camera is at any time inside a sphere, or float32 cannot tell.
     bool may_hold(const Camera &camera) const;
 
     // Whether parallel rays may start on both sides of a sphere (seen_scene.h).
     bool divides_start(const Camera &camera) const;
 
-    // Finds the sphere with the least of_sphere(). of_region() is a lower bound for all spheres in a ball.
+    // Finds the sphere with the least of_sphere(). of_region() must be a lower bound for all spheres in a ball.
     struct Least {
         double number;
         std::uint32_t sphere; // scene index
@@ -91,7 +91,6 @@ public:
     };
     Farthest farthest() const;
 
-    // Calls receive() for the spheres in all regions that enters() accepts.
     void visit(const Camera &camera, const std::function<bool(const MovingBall &)> &enters,
                const std::function<void(const MovingBall &, std::int16_t opacity)> &receive) const;
 
@@ -137,7 +136,7 @@ private:
     std::uint32_t node_count_ = 0;
     std::shared_ptr<const std::vector<std::uint32_t>> spheres_; // scene indices by slot; trees may share them
     double cost_ = 0.0;
-    double cost_as_made_ = 0.0; // of the tree for which the shape was built
+    double cost_as_made_ = 0.0; // cost when the shape was built
     std::uint32_t first_sphere_ = 0;
     std::uint32_t first_motion_ = 0;
     std::uint32_t first_surface_ = 0;

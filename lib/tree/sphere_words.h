@@ -1,4 +1,3 @@
-// Converts surfaces to tree words (gpu_layout.h) and back.
 #pragma once
 
 #include "lib/scene/scene.h"
@@ -13,7 +12,7 @@
 namespace pt {
 
 struct SphereWords {
-    glm::uvec4 place; // center on the grid, bits of the radius
+    glm::uvec4 place; // center on the grid, then the radius as a float32
     glm::uvec4 way{0};
 
     SphereWords(const glm::uvec4 &place_of, const glm::uvec4 &way_of) : place(place_of), way(way_of) {}
@@ -21,16 +20,16 @@ struct SphereWords {
 
     std::array<std::uint32_t, 8> all() const { return std::bit_cast<std::array<std::uint32_t, 8>>(*this); }
 
-    // From time 0 to 1, or from end to end.
+    // The motion from time 0 to 1, or a capsule from end to end.
     MovingBall surface(const Grid &grid) const;
 
-    // In steps, if the tree has opacities.
+    // In steps. Needs a tree with opacities.
     std::int16_t opacity() const { return static_cast<std::int16_t>(place.w & gpu::TREE_OPACITY_STEPS); }
 
     // The kernel's margin covers rounding.
     GridBox box(const Grid &grid) const;
 
-    // The ball around the surface, in grid steps.
+    // In grid steps.
     std::array<float, 4> ball(const Grid &grid) const;
 
 private:

@@ -12,14 +12,14 @@ namespace pt {
 
 namespace {
 
-// Every ray tests these spheres, which at most doubles the time (default_tree_from). The tree would make them slower,
-// because its boxes grow by 2^-19 of its reach.
+// Every ray tests these spheres, which at most doubles the time (default_tree_from). Inside, they would make the tree
+// slower, because boxes grow by 2^-19 of the tree's reach.
 constexpr std::size_t most_outlying = 50;
 
-// Nearer spheres take at most four of the coordinates' 29 bits. The other 25 are more than float32 has.
+// Nearer spheres cost at most four of the coordinates' 29 bits. float32 has fewer than the other 25.
 constexpr double much_farther = 16.0;
 
-// Walks are faster without capsules, so a few stay outside, such as a cell's twelve edges.
+// Walks are faster without capsules, so a few, such as the twelve edges of a cell, stay outside.
 constexpr std::size_t few_others = 16;
 
 // Finds the few spheres that reach 16 times as far from the scene's middle as all others.
@@ -53,7 +53,7 @@ std::uint32_t tree_pays_from(const SphereSource &spheres) {
     return spheres.are_mere_balls() ? default_tree_from : tree_of_others_from;
 }
 
-// Translucent spheres stay in the tree, because only its walks handle opacities.
+// Only the tree's walks handle opacities, so translucent spheres stay inside.
 std::vector<std::uint32_t> spheres_beside_tree(const SphereSource &spheres, WorkProgress &progress) {
     const std::vector<std::uint32_t> outlying = outlying_spheres(spheres, progress);
     std::vector<std::uint32_t> beside;

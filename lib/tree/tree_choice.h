@@ -9,10 +9,11 @@
 
 namespace pt {
 
-// From here on a tree is faster. On lavapipe, longer loops are not unrolled (DevicePolicy::unrolled).
+// A tree is faster from this many spheres on. On lavapipe, longer loops are not unrolled (DevicePolicy::unrolled).
 inline constexpr std::uint32_t default_tree_from = 113;
 
-// With capsules. Their tests take several times as long, and lavapipe takes seconds to compile them.
+// The same number for scenes with capsules. Tests of capsules take several times as long, and lavapipe takes seconds to
+// compile them.
 inline constexpr std::uint32_t tree_of_others_from = 24;
 
 std::uint32_t tree_pays_from(const SphereSource &spheres);

@@ -70,8 +70,9 @@ struct Exact {
 };
 
 // Let u = 2^-24, d = |center|, b = center . direction and l = |center - b direction|. The error of b is 3 u d, plus d
-// times the deviation of the direction's length from 1. Across the ray, the center's error is u |b| + u l. The error
-// along the ray counts squared. Errors of 3 u for l^2, u for r^2, u for the difference and 9 u for sqrt follow.
+// times the deviation of the direction's length from 1. Across the ray, center - b direction has an error of u |b| + u
+// l. Along the ray, the error of b counts squared. Further errors are 3 u for l^2, u for r^2, u for the difference and
+// 9 u for sqrt.
 Exact exact_sphere(const Item &item) {
     const Direction center(item.center);
     const Direction direction = glm::normalize(Direction(item.direction));
