@@ -9,6 +9,7 @@ pt_add_tests(
   api/render_settings_test.cpp
   film/adaptive_rule_test.cpp
   film/comparison_test.cpp
+  film/display_test.cpp
   film/error_estimate_test.cpp
   film/film_bytes_test.cpp
   film/film_calls_test.cpp

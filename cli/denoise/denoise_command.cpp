@@ -89,7 +89,7 @@ nlohmann::ordered_json stats_json_of(const RenderReport &report, const RenderedI
                                  {"max_path_length", report.render.max_path_length},
                                  {"denoised", true}};
     stats.update(error_json(second.error));
-    stats.update(nlohmann::ordered_json{{"tone_map", tone_map_json(report)}});
+    stats.update(nlohmann::ordered_json{{"tone_map", tone_map_json(report.tone_map)}});
     return stats;
 }
 

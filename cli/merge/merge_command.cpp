@@ -132,7 +132,7 @@ nlohmann::ordered_json stats_json(const MergeReport &report) {
                                  {"device", info.device}};
     stats.update(error_json(report.picture.error));
     stats.update(nlohmann::ordered_json{{"rejected_samples", report.picture.stats.rejected_samples},
-                                        {"tone_map", tone_map_json(report.picture)}});
+                                        {"tone_map", tone_map_json(report.picture.tone_map)}});
     return stats;
 }
 

@@ -99,16 +99,6 @@ RenderReport film_report(const FilmHandle &film) {
     return report;
 }
 
-nlohmann::ordered_json tone_map_json(const RenderReport &report) {
-    if (!report.tone_map)
-        return nullptr;
-    const ToneMap &map = *report.tone_map;
-    return {{"curve", tone_curves.name(map.curve)},
-            {"exposure", map.exposure},
-            {"automatic_exposure", map.is_automatic},
-            {"gamma", map.gamma ? nlohmann::ordered_json(*map.gamma) : nullptr}};
-}
-
 nlohmann::ordered_json error_json(const pt_error_estimate &error) {
     return {{"rmse", number_or_null(error.rmse)},
             {"rmse_low", number_or_null(error.rmse_low)},
@@ -153,7 +143,7 @@ nlohmann::ordered_json stats_json(const RenderReport &report) {
         {"peak_host_bytes", platform::peak_bytes()},
         {"features", names_of(report.stats.features, pt::features)},
         {"samples_per_second", samples_per_second(report)},
-        {"tone_map", tone_map_json(report)},
+        {"tone_map", tone_map_json(report.tone_map)},
         {"warnings", report.warnings}});
     return stats;
 }

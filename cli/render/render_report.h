@@ -43,7 +43,6 @@ RenderReport film_report(const FilmHandle &film);
 nlohmann::ordered_json stats_json(const RenderReport &report);
 
 nlohmann::ordered_json error_json(const pt_error_estimate &error);
-nlohmann::ordered_json tone_map_json(const RenderReport &report);
 
 std::string summary_text(const RenderReport &report);
 

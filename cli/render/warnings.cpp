@@ -84,7 +84,7 @@ std::optional<std::string> picture_below_its_target(const RenderReport &report, 
     if (report.target_error <= 0.0 || is_black(radiance))
         return std::nullopt;
     const bool is_known = report.tone_map && report.tone_map->is_automatic;
-    const double stops = is_known ? report.tone_map->exposure : automatic_exposure(radiance);
+    const double stops = is_known ? report.tone_map->display.exposure : automatic_exposure(radiance);
     if (stops <= most_stops)
         return std::nullopt;
     return "--error: the picture is so dark that a relative error says little: "

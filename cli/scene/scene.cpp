@@ -35,7 +35,7 @@ void load_columns(SceneFile &scene) {
     with_exit_code([&] { pt::read_columns(scene); });
 }
 
-Display display_of(const std::vector<SceneOverride> &overrides) {
+pt_display_info display_of(const std::vector<SceneOverride> &overrides) {
     return parse_scene("{}", "", overrides).display;
 }
 

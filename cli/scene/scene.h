@@ -11,7 +11,6 @@
 
 namespace cli {
 
-using pt::Display;
 using pt::SceneFile;
 using pt::SceneOverride;
 
@@ -32,7 +31,7 @@ SceneFile read_scene_file(const std::string &path, std::vector<SceneOverride> ov
 void load_columns(SceneFile &scene);
 
 // For commands without a scene file.
-Display display_of(const std::vector<SceneOverride> &overrides);
+pt_display_info display_of(const std::vector<SceneOverride> &overrides);
 
 // Names the option that sets the field, if it is set by none of the scene's.
 std::string explain(const SceneFile &scene, const BrokenRule &rule);

@@ -51,12 +51,10 @@ std::vector<float> radiance_of(const DecodedImage &image) {
     refuse_if(!image.is_float,
               "cannot read " + image.path + ": holds whole numbers, as displays take them, not linear radiance",
               ExitCode::file);
-    std::vector<float> radiance = image.layer("");
+    const std::vector<float> radiance = image.layer("");
     const auto bad = std::find_if(radiance.begin(), radiance.end(), [](float value) { return !std::isfinite(value); });
     if (bad != radiance.end())
         refuse(image, static_cast<std::size_t>(bad - radiance.begin()) / 3, " is not finite");
-    std::transform(radiance.begin(), radiance.end(), radiance.begin(),
-                   [](float value) { return std::max(value, 0.0F); });
     return radiance;
 }
 

@@ -3,7 +3,7 @@
 
 #include "lib/api/context.h"
 #include "lib/api/guard.h"
-#include "lib/base/rules.h"
+#include "lib/base/check_values.h"
 #include "lib/base/struct_size.h"
 #include "lib/film/comparison.h"
 
@@ -21,13 +21,7 @@ void check_image(const Subject &subject, const pt_compared_image &image, std::ui
     subject.require(image.min_samples == image.max_samples, "max_samples", image.max_samples,
                     "must be min_samples, " + std::to_string(image.min_samples) +
                         ": samples that go where the error is shift the mean");
-    if (!image.radiance) {
-        subject.refuse("radiance", "NULL", "must not be NULL");
-        return;
-    }
-    for (std::uint64_t i = 0; i < 3 * pixel_count; ++i)
-        if (const char *broken = finite_rule(image.radiance[i]))
-            subject.refuse_element("radiance", i, image.radiance[i], broken);
+    check_values(subject, "radiance", image.radiance, 3 * pixel_count, &finite_rule);
 }
 
 pt_compare_info validated_compare(const pt_compare_info *user) {

@@ -3,27 +3,16 @@
 
 #include "lib/api/context.h"
 #include "lib/api/guard.h"
-#include "lib/base/rules.h"
+#include "lib/base/check_values.h"
 #include "lib/base/struct_size.h"
 #include "lib/denoise/combination.h"
 #include "lib/denoise/open_image_denoise.h"
 
-#include <cmath>
 #include <vector>
 
 namespace pt {
 
 namespace {
-
-void check_pixels(const Subject &subject, const char *member, const float *values, std::size_t value_count) {
-    if (!values) {
-        subject.refuse(member, "NULL", "must not be NULL");
-        return;
-    }
-    for (std::size_t i = 0; i < value_count; ++i)
-        if (!std::isfinite(values[i]))
-            subject.refuse_element(member, i, values[i], finite_rule(values[i]));
-}
 
 pt_denoise_info validated_denoise(const pt_denoise_info *user) {
     const pt_denoise_info info = copy_in(user, "denoise");
@@ -33,10 +22,10 @@ pt_denoise_info validated_denoise(const pt_denoise_info *user) {
     subject.require(pixel_count >= 1 && pixel_count <= UINT32_MAX, {"width", "* height"}, pixel_count,
                     "must be in [1, 2^32 - 1]");
     violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
-    check_pixels(subject, "first", info.first, 3 * pixel_count);
-    check_pixels(subject, "second", info.second, 3 * pixel_count);
-    check_pixels(subject, "albedo", info.albedo, 3 * pixel_count);
-    check_pixels(subject, "normal", info.normal, 3 * pixel_count);
+    check_values(subject, "first", info.first, 3 * pixel_count, &finite_rule);
+    check_values(subject, "second", info.second, 3 * pixel_count, &finite_rule);
+    check_values(subject, "albedo", info.albedo, 3 * pixel_count, &finite_rule);
+    check_values(subject, "normal", info.normal, 3 * pixel_count, &finite_rule);
     if (!info.denoised)
         subject.refuse("denoised", "NULL", "must not be NULL");
     violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);

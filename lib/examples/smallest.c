@@ -1,8 +1,8 @@
-/* The smallest program: a ball under a lamp, written to smallest.pfm. The file has linear radiance as floats. GIMP and
- * tev show it.
+/* The smallest program: a ball under a lamp, written to smallest.ppm.
  *
  *     cc smallest.c $(pkg-config --cflags --libs pt) -o smallest && ./smallest
  */
+#include <pt/display.h>
 #include <pt/pt.h>
 
 #include <stdio.h>
@@ -64,22 +64,33 @@ static pt_result render(pt_context *context, float *pixels, uint64_t size_bytes)
     return result;
 }
 
-/* Returns 1 if the file is complete. PFM has the bottom row first. -1 means that the floats are little-endian. */
-static int write_pfm(const char *path, const float *pixels) {
+/* Makes sRGB bytes, which PPM and PNG files store alike. */
+static pt_result to_bytes(const float *pixels, uint8_t *bytes, uint64_t size_bytes) {
+    pt_display_info display = {0};
+
+    display.struct_size = sizeof display;
+    display.automatic_exposure = 1;
+    display.pixel_count = WIDTH * HEIGHT;
+    display.radiance = pixels;
+    display.pixels = bytes;
+    display.size_bytes = size_bytes;
+    return pt_display(&display);
+}
+
+/* Returns 1 if the file is complete. */
+static int write_ppm(const char *path, const uint8_t *bytes, size_t size) {
     FILE *file = fopen(path, "wb");
-    int row;
     int whole;
 
     if (!file)
         return 0;
-    whole = fprintf(file, "PF\n%d %d\n-1.0\n", WIDTH, HEIGHT) > 0;
-    for (row = HEIGHT; row-- > 0;)
-        whole = whole && fwrite(pixels + row * WIDTH * 3, sizeof(float), WIDTH * 3, file) == WIDTH * 3;
+    whole = fprintf(file, "P6\n%d %d\n255\n", WIDTH, HEIGHT) > 0 && fwrite(bytes, 1, size, file) == size;
     return fclose(file) == 0 && whole;
 }
 
 int main(void) {
     static float pixels[WIDTH * HEIGHT * 3];
+    static uint8_t bytes[WIDTH * HEIGHT * 3];
     pt_context *context;
     pt_result result = pt_create(NULL, &context);
 
@@ -94,8 +105,12 @@ int main(void) {
     if (result < 0)
         return 1;
 
-    if (!write_pfm("smallest.pfm", pixels)) {
-        perror("smallest.pfm");
+    if (to_bytes(pixels, bytes, sizeof bytes) < 0) {
+        fprintf(stderr, "%s\n", pt_last_error(NULL));
+        return 1;
+    }
+    if (!write_ppm("smallest.ppm", bytes, sizeof bytes)) {
+        perror("smallest.ppm");
         return 1;
     }
     return 0;

@@ -1,11 +1,10 @@
-"""The smallest program in Python: a ball under a lamp, written to smallest.pfm and smallest.png.
+"""The smallest program in Python: a ball under a lamp, written to smallest.png.
 
     pip install ./lib/python && python3 smallest.py
 """
 
 import sys
 
-import numpy as np
 import pt
 
 WIDTH, HEIGHT = 128, 96
@@ -22,19 +21,11 @@ def show_progress(fraction):
     print(f"\r{fraction:4.0%}", end="", file=sys.stderr, flush=True)
 
 
-def write_pfm(path, pixels):
-    """PFM has the bottom row first. -1 means that the floats are little-endian."""
-    with open(path, "wb") as file:
-        file.write(b"PF\n%d %d\n-1.0\n" % (pixels.shape[1], pixels.shape[0]))
-        file.write(np.flipud(pixels).astype("<f4").tobytes())
-
-
 def main():
     with pt.Context() as context:
         image = context.render(SCENE, pt.Camera(position=(0, 1.5, 5), target=(0, 1, 0)),
                                pt.RenderSettings(WIDTH, HEIGHT), samples=64, progress=show_progress)
         print("\rrendered on", context.device.name)
-    write_pfm("smallest.pfm", image.radiance)
     image.save("smallest.png")
 
 

@@ -99,10 +99,10 @@ pt_scene scene_of(const pt_scene_file &file) {
 pt_scene_film film_of(const pt::SceneFile &file) {
     auto film = pt::sized<pt_scene_film>();
     film.sample_count = file.sample_count.value_or(0);
-    film.curve = static_cast<std::uint32_t>(file.display.curve);
-    film.automatic_exposure = file.display.exposure ? 0 : 1;
-    film.exposure = file.display.exposure.value_or(0.0);
-    film.gamma = file.display.gamma.value_or(0.0);
+    film.curve = file.display.curve;
+    film.automatic_exposure = file.display.automatic_exposure;
+    film.exposure = file.display.exposure;
+    film.gamma = file.display.gamma;
     return film;
 }
 

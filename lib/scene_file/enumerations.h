@@ -3,6 +3,7 @@
 
 #include "lib/scene_file/names.h"
 
+#include <pt/display.h>
 #include <pt/pt.h>
 #include <pt/stats.h>
 
@@ -34,6 +35,14 @@ inline constexpr ValueNames estimators({
 inline constexpr ValueNames projections({
     {"perspective", PT_PROJECTION_PERSPECTIVE},
     {"orthographic", PT_PROJECTION_ORTHOGRAPHIC},
+});
+
+inline constexpr ValueNames curves({
+    {"none", PT_CURVE_NONE},
+    {"reinhard", PT_CURVE_REINHARD},
+    {"aces", PT_CURVE_ACES},
+    {"agx", PT_CURVE_AGX},
+    {"neutral", PT_CURVE_NEUTRAL},
 });
 
 inline constexpr ValueNames features({

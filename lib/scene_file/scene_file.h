@@ -5,10 +5,10 @@
 #include "lib/base/error.h"
 #include "lib/base/struct_size.h"
 #include "lib/scene_file/animation.h"
-#include "lib/scene_file/display.h"
 #include "lib/scene_file/json_value.h"
 #include "lib/scene_file/sphere_columns.h"
 
+#include <pt/display.h>
 #include <pt/pt.h>
 
 #include <array>
@@ -35,6 +35,12 @@ constexpr pt_render default_render() {
     render.height = 512;
     render.max_path_length = PT_DEFAULT_MAX_PATH_LENGTH;
     return render;
+}
+
+constexpr pt_display_info default_display() {
+    auto display = sized<pt_display_info>();
+    display.automatic_exposure = 1;
+    return display;
 }
 
 // A sphere's properties beside its material.
@@ -73,7 +79,7 @@ struct SceneFile {
     pt_camera camera = default_camera();
     pt_render render = default_render();
     std::optional<std::uint32_t> sample_count; // samples of a pixel
-    Display display;
+    pt_display_info display = default_display();
 
     void add_sphere(const pt_sphere &sphere, const std::optional<Look> &look);
 

@@ -98,17 +98,18 @@ constexpr std::array film_keys{
     SceneKey{"height", whole_number(1, largest_uint32), "Height", "512", optional,
              [](Item item, Value value) { item.scene.render.height = value.get<std::uint32_t>(); }},
     SceneKey{"exposure",
-             {.form = Form::number_or_auto, .least = -largest_exposure, .largest = largest_exposure, .unit = "stops"},
+             {.form = Form::number_or_auto, .least = -64.0, .largest = 64.0, .unit = "stops"},
              "Brightness",
              "auto",
              optional,
              [](Item item, Value value) {
-                 item.scene.display.exposure = value.is_number() ? std::optional(value.get<double>()) : std::nullopt;
+                 item.scene.display.automatic_exposure = value.is_number() ? 0 : 1;
+                 item.scene.display.exposure = value.is_number() ? value.get<double>() : 0.0;
              },
              "--exposure"},
-    SceneKey{"tonemap", one_of("tone map", tone_curves.names()), "Curve from radiance to light", "none", optional,
+    SceneKey{"tonemap", one_of("tone map", curves.names()), "Curve from radiance to light", "none", optional,
              [](Item item, Value value) {
-                 item.scene.display.curve = tone_curves.find(value.get_ref<const std::string &>()).value();
+                 item.scene.display.curve = curves.find(value.get_ref<const std::string &>()).value();
              },
              "--tonemap"},
     SceneKey{"gamma", number(0.1, 10.0), "Power 1 / gamma instead of the sRGB curve", "the sRGB curve", optional,

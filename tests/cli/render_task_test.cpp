@@ -62,10 +62,11 @@ TEST(RenderTask, CommandLineBeatsSceneBeatsDefaults) {
 
 TEST(RenderTask, ToneMapping) {
     EXPECT_EQ(task_of({}, full_scene).scene.display.exposure, -3.0);
-    EXPECT_EQ(task_of({}, full_scene).scene.display.curve, cli::ToneCurve::agx);
+    EXPECT_EQ(task_of({}, full_scene).scene.display.automatic_exposure, 0U);
+    EXPECT_EQ(task_of({}, full_scene).scene.display.curve, std::uint32_t{PT_CURVE_AGX});
     EXPECT_EQ(task_of({}, full_scene).scene.display.gamma, 2.2);
-    EXPECT_FALSE(task_of(full_options(), full_scene).scene.display.exposure); // "auto" counts as given
-    EXPECT_EQ(task_of(full_options(), full_scene).scene.display.curve, cli::ToneCurve::none);
+    EXPECT_EQ(task_of(full_options(), full_scene).scene.display.automatic_exposure, 1U); // "auto" counts as given
+    EXPECT_EQ(task_of(full_options(), full_scene).scene.display.curve, std::uint32_t{PT_CURVE_NONE});
 }
 
 TEST(RenderTask, ATargetErrorRaisesTheDefaultNumberOfSamplesAlone) {

@@ -108,7 +108,7 @@ TEST(SceneFile, ReadsCameraAndSettings) {
     EXPECT_EQ(scene.render.width, 320U);
     EXPECT_EQ(scene.render.height, 200U); // 2e2 is an integer.
     EXPECT_EQ(scene.display.exposure, -1.5);
-    EXPECT_EQ(scene.display.curve, cli::ToneCurve::agx);
+    EXPECT_EQ(scene.display.curve, std::uint32_t{PT_CURVE_AGX});
     EXPECT_EQ(scene.display.gamma, 2.2);
     EXPECT_EQ(scene.render.max_path_length, 3U);
     EXPECT_EQ(scene.sample_count, 16U);
@@ -128,7 +128,8 @@ TEST(SceneFile, EmptySceneHasDefaults) {
     EXPECT_EQ(scene.render.height, 512U);
     EXPECT_EQ(scene.render.max_path_length, 6U);
     EXPECT_EQ(scene.render.seed, 0U);
-    EXPECT_FALSE(scene.sample_count || scene.display.exposure || scene.display.gamma);
+    EXPECT_FALSE(scene.sample_count || scene.display.gamma != 0.0);
+    EXPECT_EQ(scene.display.automatic_exposure, 1U);
     const pt_scene view = scene.scene();
     EXPECT_EQ(view.struct_size, sizeof(pt_scene));
     EXPECT_EQ(view.sphere_count, 0U);
@@ -144,7 +145,7 @@ TEST(SceneFile, AShutterMayBeAnInstant) {
 }
 
 TEST(SceneFile, ExposuresAreNumbersOrAutomatic) {
-    EXPECT_FALSE(parse_scene(R"({"film":{"exposure":"auto"}})", "").display.exposure);
+    EXPECT_EQ(parse_scene(R"({"film":{"exposure":"auto"}})", "").display.automatic_exposure, 1U);
     EXPECT_EQ(parse_scene(R"({"film":{"exposure":3}})", "").display.exposure, 3.0);
     for (const char *exposure : {"65", "\"1\"", "\"bright\"", "null"}) {
         EXPECT_EQ(refusal(std::string(R"({"film":{"exposure":)") + exposure + "}}"),

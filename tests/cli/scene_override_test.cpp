@@ -60,8 +60,8 @@ TEST(SceneOverride, AddsMembers) {
 }
 
 TEST(SceneOverride, TextsNeedNoQuotes) {
-    EXPECT_EQ(changed({"film.tonemap=agx"}).display.curve, cli::ToneCurve::agx);
-    EXPECT_EQ(changed({"film.tonemap=\"agx\""}).display.curve, cli::ToneCurve::agx);
+    EXPECT_EQ(changed({"film.tonemap=agx"}).display.curve, std::uint32_t{PT_CURVE_AGX});
+    EXPECT_EQ(changed({"film.tonemap=\"agx\""}).display.curve, std::uint32_t{PT_CURVE_AGX});
     EXPECT_EQ(changed({R"(materials["blue = \"c\"]"].diffuse=0.5)"}).materials[2].diffuse[0], 0.5F);
 }
 

@@ -10,6 +10,9 @@ import shutil
 import subprocess
 import sys
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from png import parse_png  # noqa: E402
+
 HERE = pathlib.Path(__file__).resolve().parent
 SOURCE = HERE.parent.parent
 EXAMPLES = SOURCE / "lib" / "examples"
@@ -223,12 +226,12 @@ class Steps:
         folder = self.folder("python")
         library = {"PT_LIBRARY": str(self.library / "libpt.so.0.4"), "PYTHONPATH": str(SOURCE / "lib" / "python")}
         run(sys.executable, "-B", EXAMPLES / "smallest.py", cwd=folder, **library)
-        image = (folder / "smallest.pfm").read_bytes()
-        require(len(image) == len(b"PF\n128 96\n-1.0\n") + 128 * 96 * 12, "smallest.pfm has another size")
+        width, height, rows = parse_png((folder / "smallest.png").read_bytes())
         flags = self.pkg_config("--cflags", "--libs")
         run(self.options.c_compiler, EXAMPLES / "smallest.c", *flags, "-o", folder / "c")
         run(folder / "c", cwd=folder, LD_LIBRARY_PATH=str(self.library))
-        require((folder / "smallest.pfm").read_bytes() == image, "smallest.c and smallest.py differ")
+        require((folder / "smallest.ppm").read_bytes() == b"P6\n%d %d\n255\n" % (width, height) + b"".join(map(bytes, rows)),
+                "smallest.c and smallest.py differ")
 
     def check_program(self, program, folder, *options, **environment):
         scene = SOURCE / "cli" / "scenes" / "coursework.json"

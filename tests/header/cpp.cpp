@@ -5,6 +5,7 @@
 #include <pt/compare.h>
 #include <pt/denoise.h>
 #include <pt/devices.h>
+#include <pt/display.h>
 #include <pt/errors.h>
 #include <pt/film.h>
 #include <pt/map.h>
@@ -23,6 +24,7 @@ static_assert(are_plain<pt_device_info, pt_material, pt_sphere, pt_plane, pt_sce
 static_assert(are_plain<pt_accumulate_info, pt_image, pt_stats, pt_error_estimate, pt_function_accuracy, pt_vulkan,
                         pt_create_info>);
 static_assert(are_plain<pt_broken_rule, pt_buffer_image, pt_column, pt_denoise_info, pt_sphere_array>);
+static_assert(are_plain<pt_display_info>);
 static_assert(are_plain<pt_compare_info, pt_compared_image, pt_compared_region, pt_comparison>);
 
 static_assert(std::is_same_v<pt_result, int32_t>);
@@ -43,6 +45,8 @@ static_assert(PT_NO_OBJECT == UINT32_MAX);
 static_assert(PT_TYPE_FLOAT32 == 1 && PT_TYPE_FLOAT64 == 2 && PT_TYPE_UINT32 == 3 && PT_TYPE_SRGB8 == 4);
 static_assert(PT_LOG_ERROR == 1 && PT_LOG_WARNING == 2 && PT_LOG_INFO == 3);
 static_assert(PT_CREATE_VALIDATION == 1);
+static_assert(PT_CURVE_NONE == 0 && PT_CURVE_REINHARD == 1 && PT_CURVE_ACES == 2 && PT_CURVE_AGX == 3);
+static_assert(PT_CURVE_NEUTRAL == 4);
 static_assert(PT_LIGHT_EQUAL_BITS == 1 && PT_LIGHT_SAME == 2 && PT_LIGHT_DIFFERENT == 3 && PT_LIGHT_UNDECIDED == 4);
 
 // These are the types of the functions, which have C linkage.

@@ -5,7 +5,7 @@ import re
 import sys
 
 ORDERS = {"cli": ("base", "image", "film", "scene", "render", "merge", "denoise", "tonemap", "compare", "selftest"),
-          "lib": ("platform", "base", "scene", "tree", "film", "denoise", "vulkan", "glsl_module", "kernel", "render", "api",
+          "lib": ("platform", "base", "scene", "tree", "film", "denoise", "display", "vulkan", "glsl_module", "kernel", "render", "api",
                  "scene_file")}
 
 

@@ -5,7 +5,7 @@ import subprocess
 import sys
 import tempfile
 
-MOST = 1_260_000  # bytes
+MOST = 1_275_000  # bytes; the display transform takes 18,000
 
 with tempfile.TemporaryDirectory() as folder:
     stripped = os.path.join(folder, "libpt.so")

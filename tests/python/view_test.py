@@ -67,7 +67,14 @@ class Page:
         length, = struct.unpack("<I", data[:4])
         self.state = json.loads(data[4:4 + length])
         if len(data) > 4 + length:
-            self.pixels = np.frombuffer(data, np.float32, offset=4 + length).reshape(self.state["height"], self.state["width"], 3)
+            self.pixels = np.frombuffer(data, np.uint8, offset=4 + length).reshape(self.state["height"], self.state["width"], 4)
+
+    def radiance(self):
+        with tempfile.NamedTemporaryFile(suffix=".exr") as file:
+            file.write(self.get("picture.exr")[2])
+            file.flush()
+            channels = read_exr_channels(pathlib.Path(file.name))
+        return np.stack([channels[name] for name in "RGB"], axis=2).astype(np.float32)
 
     def frame(self, holds=lambda state: True):
         while True:
@@ -113,7 +120,7 @@ class Views(unittest.TestCase):
             self.assertGreaterEqual(status, 400)
             for name, value in _server.HEADERS.items():
                 self.assertEqual(headers[name], value, path)
-        for name in ("view.js", "tone.js", "view.css", "codemirror.js"):
+        for name in ("view.js", "view.css", "codemirror.js"):
             self.assertEqual(self.request(good + name)[0], 200)
         port = self.host.partition(":")[2]
         for host in (f"localhost:{port}", "127.0.0.1:9", "localhost", "[::1]:80"):  # The end of a tunnel has another port.
@@ -211,17 +218,61 @@ class Views(unittest.TestCase):
                                        ("depth", "DEPTH"), ("normal", "NORMAL"), ("albedo", "ALBEDO")):
                     page.send({"layer": name})
                     page.frame(lambda state: state["layer"] == name)
-                    np.testing.assert_array_equal(page.pixels, context.readback(pt.Quantity[quantity]), name)
+                    values = context.readback(pt.Quantity[quantity])
+                    self.assert_shows(page, name, values, image)
+                    layer = page.ask({"pixel": [5, 7]})["pixel"]["layer"]
+                    self.assertEqual([np.inf if each is None else each for each in layer], values[7, 5].tolist())
             page.send({"layer": "mean"})
+            page.frame(lambda state: state["layer"] == "mean")
             self.assertEqual((state["error"], state["low"], state["high"]), (image.error, *image.error_bounds))
-            status, _, data = page.get("picture.exr")
-            (self.folder / "x.exr").write_bytes(data)
-            channels = read_exr_channels(self.folder / "x.exr")
-            np.testing.assert_array_equal(np.stack([channels[name] for name in "RGB"], axis=2).astype(np.float32), image.radiance)
+            np.testing.assert_array_equal(page.radiance(), image.radiance)
             pixel = page.ask({"pixel": [5, 7]})["pixel"]
             self.assertEqual(pixel, {"x": 5, "y": 7, "radiance": image.radiance[7, 5].tolist(), "samples": 64,
-                                     "error": image.standard_error[7, 5].tolist()})
+                                     "error": image.standard_error[7, 5].tolist(), "layer": image.radiance[7, 5].tolist(),
+                                     "shown": image.to_srgb8()[7, 5].tolist()})
             self.assertNotEqual(pixel["radiance"], image.radiance[5, 7].tolist())
+
+    def assert_shows(self, page, layer, values, image):
+        """Numbers from 0 to 1 become 0 to 255; halves may be rounded either way."""
+        self.assertTrue((page.pixels[:, :, 3] == 255).all())
+        shown = page.pixels[:, :, :3]
+        if layer == "mean":
+            return np.testing.assert_array_equal(shown, image.to_srgb8())
+        if layer in ("albedo", "standard error"):
+            of_layer = pt.Image(values, values, values, None, None, 0.0 if layer == "albedo" else None)
+            return np.testing.assert_array_equal(shown, of_layer.to_srgb8())
+        numbers = values.astype(np.float64)
+        if layer == "normal":
+            numbers = 0.5 + 0.5 * numbers
+        elif layer == "samples":
+            numbers = np.full(values.shape, 0.5)  # all pixels are alike
+        else:
+            known = np.isfinite(numbers)
+            least, most = numbers[known].min(), numbers[known].max()
+            numbers = np.where(known, 1 - 0.9 * (np.where(known, numbers, least) - least) / (most - least), 0.0)
+        np.testing.assert_allclose(shown, 255 * np.clip(numbers, 0, 1), rtol=0, atol=0.5001)
+
+    def test_a_page_has_its_own_display(self):
+        with Page(self.view) as page, Page(self.view) as other:
+            page.frame(lambda state: state["samples"] == 64)
+            radiance, automatic = page.radiance(), page.pixels
+            image = pt.Image(radiance, radiance, radiance, None, None)
+            page.send({"display": {"exposure": -1.5, "tonemap": "agx", "gamma": 1.8}})
+            state = page.frame(lambda state: state["stops"] == -1.5)
+            expected = image.to_srgb8(-1.5, curve=pt.Curve.AGX, gamma=1.8)
+            np.testing.assert_array_equal(page.pixels[:, :, :3], expected)
+            self.assertEqual(state["choices"]["curve"], ["none", "reinhard", "aces", "agx", "neutral"])
+            self.assertEqual(page.ask({"pixel": [5, 7]})["pixel"]["shown"], expected[7, 5].tolist())
+            other.frame(lambda state: state["samples"] == 64)
+            np.testing.assert_array_equal(other.pixels, automatic)
+            self.assertFalse(np.array_equal(page.pixels, automatic))  # negative control
+            for spoilt in ({"exposure": 65, "tonemap": "none", "gamma": None}, {"exposure": 0, "tonemap": "x", "gamma": None},
+                           {"exposure": 0, "tonemap": "none", "gamma": 11}, {"exposure": "bright", "tonemap": "none", "gamma": 1},
+                           {"exposure": 0}, 7):
+                self.assertIn("refused", page.ask({"display": spoilt}), spoilt)
+            page.send({"display": {"exposure": "auto", "tonemap": "none", "gamma": None}})
+            page.frame(lambda state: state["stops"] != -1.5)
+            np.testing.assert_array_equal(page.pixels, automatic)
 
     def test_what_the_page_changes(self):
         with Page(self.view) as page:
@@ -232,7 +283,7 @@ class Views(unittest.TestCase):
             with pt.Context() as context:
                 image = context.render(SCENE, camera, settings(width=12, height=9, max_path_length=2, sampler=pt.Sampler.HALTON_CP,
                                                                estimator=pt.Estimator.LIGHT), 64)
-            np.testing.assert_array_equal(page.pixels, image.radiance)
+            np.testing.assert_array_equal(page.radiance(), image.radiance)
             status, headers, data = page.get("scene")
             self.assertEqual(headers["Content-Disposition"], "attachment; filename*=UTF-8''a%20scene.json")
             saved = json.loads(data)
@@ -268,10 +319,12 @@ class Views(unittest.TestCase):
         film.save(self.folder / "x.ptfilm")
         with closing(View(self.folder / "x.ptfilm")) as view, Page(view) as page:
             self.assertEqual((page.frame()["samples"], page.state.get("camera")), (16, None))
-            np.testing.assert_array_equal(page.pixels, film.readback())
+            np.testing.assert_array_equal(page.radiance(), film.readback())
+            mean = page.pixels
             page.send({"layer": "standard error"})
             page.frame()
-            np.testing.assert_array_equal(page.pixels, film.readback(pt.Quantity.STANDARD_ERROR))
+            self.assertFalse(np.array_equal(page.pixels, mean))
+            self.assertEqual(page.ask({"pixel": [5, 7]})["pixel"]["layer"], film.readback(pt.Quantity.STANDARD_ERROR)[7, 5].tolist())
             self.assertEqual(page.get("scene")[0], 404)
 
     def test_faults_have_lines(self):
@@ -331,7 +384,7 @@ class Edits(unittest.TestCase):
         self.assertIn("pathtrace.comp", files)
         self.assertNotIn("outside.glsl", files)
         page.frame(lambda state: state["samples"] == 16)
-        before = page.pixels
+        before = page.radiance()
         text = page.ask({"open": "path.glsl"})["text"]
         self.assertEqual(text, (folder / "path.glsl").read_text())
         sought = "radiance = emitted_by(hit.surface);"
@@ -339,16 +392,16 @@ class Edits(unittest.TestCase):
         page.send({"save": "path.glsl", "text": text.replace(sought, "radiance = emited_by(hit.surface);")})
         faults = page.frame(lambda state: state["faults"])["faults"]
         self.assertIn(("path.glsl", line), [(fault["file"], fault["line"]) for fault in faults])
-        np.testing.assert_array_equal(page.pixels, before)
+        np.testing.assert_array_equal(page.radiance(), before)
         page.send({"save": "path.glsl", "text": text.replace(sought, "radiance = vec3(1.0) + emitted_by(hit.surface);")})
         page.frame(lambda state: not state["faults"] and state["samples"] == 16)
-        more = page.pixels - before  # 1 where the ray hits a surface, apart from rounding
+        more = page.radiance() - before  # 1 where the ray hits a surface, apart from rounding
         self.assertTrue(np.isclose(more, 1.0, atol=1e-5).any() and (more > -1e-5).all() and (more < 1.00001).all())
         page.send({"save": "path.glsl", "text": text})
-        page.frame(lambda state: state["samples"] == 16 and np.array_equal(page.pixels, before))
+        page.frame(lambda state: state["samples"] == 16 and np.array_equal(page.radiance(), before))
 
     def edit_scene(self, page, scene):
-        before = page.pixels
+        before = page.radiance()
         negative = text_of(SCENE_FILE).replace('"radius": 1', '"radius": -1', 1)
         for spoilt, line, words in (("\n\n{\"sphere\": []}", 3, "sphere"), ("{\n\"spheres\": [,]}", 2, ""),
                                     (negative, negative[:negative.index('"radius": -1')].count("\n") + 1, "must be > 0")):
@@ -356,11 +409,11 @@ class Edits(unittest.TestCase):
             fault, = page.frame(lambda state: [fault["line"] for fault in state["faults"]] == [line])["faults"]
             self.assertEqual(fault["file"], "s.json")
             self.assertIn(words, fault["text"])
-            np.testing.assert_array_equal(page.pixels, before)
+            np.testing.assert_array_equal(page.radiance(), before)
         lamps = {**SCENE_FILE["materials"], "lamp": {"emission": [8, 6, 4]}}
         page.send({"save": "s.json", "text": text_of({**SCENE_FILE, "materials": lamps})})
         page.frame(lambda state: not state["faults"] and state["samples"] == 16)
-        np.testing.assert_array_equal(page.pixels, 2 * before)  # Powers of two are exact.
+        np.testing.assert_array_equal(page.radiance(), 2 * before)  # Powers of two are exact.
 
 
 class Command(unittest.TestCase):

@@ -49,7 +49,7 @@ typedef struct pt_scene_file_info {
 typedef struct pt_scene_film {
     uint32_t struct_size;        /**< sizeof(pt_scene_film); must be set by the caller */
     uint32_t sample_count;       /**< samples of a pixel; 0: the file has no number */
-    uint32_t curve;              /**< from radiance to light: 0 none, 1 Reinhard, 2 ACES, 3 AgX, 4 neutral */
+    uint32_t curve;              /**< PT_CURVE_* of pt/display.h */
     uint32_t automatic_exposure; /**< not 0: exposure is 0 and does not count */
     double exposure;             /**< stops */
     double gamma;                /**< the signal is light^(1 / gamma); 0: the sRGB curve */

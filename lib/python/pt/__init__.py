@@ -20,7 +20,7 @@ from pt._camera import Camera, RenderSettings
 from pt._compare import Comparison, Region, assert_same_light, compare
 from pt._context import Context
 from pt._denoise import denoise
-from pt._enums import (NO_OBJECT, DeviceKind, Estimator, Feature, Format, Light, LogLevel, Projection, Quantity, Result, Sampler,
+from pt._enums import (NO_OBJECT, Curve, DeviceKind, Estimator, Feature, Format, Light, LogLevel, Projection, Quantity, Result, Sampler,
                        Sampling,
                        Uncertain)
 from pt._errors import (BrokenRule, DeviceLostError, Error, FileError, IncompatibleError, InternalError, InvalidArgumentError,
@@ -38,7 +38,7 @@ if TYPE_CHECKING:  # Figures import slowly.
     from pt.figures import Figure, figure
 
 __all__ = [
-    "BrokenRule", "Camera", "Comparison", "Context", "DeviceInfo", "DeviceKind", "DeviceLostError", "Display", "Error", "Estimator", "Feature", "Figure",
+    "BrokenRule", "Camera", "Comparison", "Context", "Curve", "DeviceInfo", "DeviceKind", "DeviceLostError", "Display", "Error", "Estimator", "Feature", "Figure",
     "FileError", "Film", "FilmInfo", "FilmTile", "Format", "Image", "IncompatibleError", "InternalError", "InvalidArgumentError",
     "InvalidSceneError", "InvalidStateError", "Light", "Log", "LogLevel", "Material", "NO_OBJECT", "NoDeviceError",
     "OutOfDeviceMemoryError", "OutOfHostMemoryError", "Override", "Plane", "Progress", "Projection", "Quantity", "Region", "RenderSettings",

@@ -1,52 +1,60 @@
-"""The default display transform: exposure and sRGB (IEC 61966-2-1)."""
+"""Pixels of displays, by libpt (pt/display.h), and PNG files."""
 
 from __future__ import annotations
 
-import math
+import ctypes
 import struct
 import zlib
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 import numpy.typing as npt
 
-MIDDLE_GREY = 0.18
-MOST_STOPS = 64.0
+from pt import _structs as structs
+from pt._library import checked, library
+
+FIELDS: Final[dict[str, Any]] = dict(structs.pt_display_info._fields_)
 
 
-def automatic_exposure(radiance: npt.NDArray[Any]) -> float:
-    """Returns the stops that bring the average to middle grey, as automatic_exposure in cli/image/tone_map.h does."""
-    means = radiance.astype(np.float64).mean(axis=2)
-    means = means[means > 0]
-    if not means.size:
-        return 0.0
-    level = math.inf
-    for _ in range(4):
-        level = float(np.minimum(means, level).mean())
-    weights = means / (means + level / 128)
-    stops = math.log2(MIDDLE_GREY) - float((weights * np.log2(means)).sum() / weights.sum())
-    hundredths = math.copysign(math.floor(abs(100 * stops) + 0.5), stops)  # Halves round away from zero.
-    return min(max(hundredths / 100, -MOST_STOPS), MOST_STOPS)
+def automatic_exposure(radiance: npt.ArrayLike) -> float:
+    """Returns the stops, in hundredths, that bring the average to middle grey, 0.18."""
+    colors = np.ascontiguousarray(radiance, np.float32)
+    exposure, loaded = ctypes.c_double(), library()
+    checked(loaded, loaded.pt_automatic_exposure(_floats(colors), colors.size // 3, exposure))
+    return exposure.value
 
 
-def to_srgb8(radiance: npt.NDArray[Any], exposure: float) -> npt.NDArray[np.uint8]:
-    """Returns 255 times the sRGB signal of radiance times 2^exposure, clamped to [0, 1]. Halves round up."""
-    pixels: npt.NDArray[np.uint8] = quantised(signal(radiance.astype(np.float64) * 2.0**exposure), np.uint8)
+def to_pixels(radiance: npt.ArrayLike, exposure: float | None, dtype: Any = np.uint8, *,
+              alpha: npt.ArrayLike | None = None, **display: Any) -> npt.NDArray[Any]:
+    """Returns sRGB signals of radiance, whose last axis is R, G, B; with alpha, by which it is multiplied, R, G, B, A.
+
+    exposure   stops; None: automatic
+    dtype      uint8 or uint16
+    display    other properties, as in pt_display_info: curve, gamma, white
+    """
+    colors = np.ascontiguousarray(radiance, np.float32)
+    shares = None if alpha is None else np.ascontiguousarray(alpha, np.float32)
+    pixels: npt.NDArray[Any] = np.empty((*colors.shape[:-1], 3 if shares is None else 4), dtype)
+    info = structs.pt_display_info(
+        bits=8 * pixels.itemsize, automatic_exposure=exposure is None, exposure=exposure or 0.0,
+        pixel_count=colors.size // 3, radiance=_floats(colors), alpha=None if shares is None else _floats(shares),
+        pixels=pixels.ctypes.data, size_bytes=pixels.nbytes)
+    for name, value in display.items():
+        if name not in FIELDS:
+            raise TypeError(f"{name} is no property of a display")
+        setattr(info, name, FIELDS[name](*value) if isinstance(value, (tuple, list)) else value)
+    loaded = library()
+    checked(loaded, loaded.pt_display(info))
     return pixels
 
 
-def signal(light: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-    light = np.clip(light, 0.0, 1.0)
-    return np.where(light <= 0.0031308, 12.92 * light, 1.055 * light**(1 / 2.4) - 0.055)
+def _floats(values: npt.NDArray[np.float32]) -> Any:
+    return values.ctypes.data_as(ctypes.POINTER(ctypes.c_float))
 
 
 def linear(signal: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    """Decodes sRGB (IEC 61966-2-1)."""
     return np.where(signal <= 0.04045, signal / 12.92, ((signal + 0.055) / 1.055)**2.4)
-
-
-def quantised(signal: npt.NDArray[np.float64], dtype: Any) -> npt.NDArray[Any]:
-    numbers: npt.NDArray[Any] = np.floor(np.iinfo(dtype).max * signal + 0.5).astype(dtype)
-    return numbers
 
 
 def encode_png(pixels: npt.NDArray[Any]) -> bytes:

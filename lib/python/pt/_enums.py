@@ -120,6 +120,16 @@ class Feature(enum.IntFlag):
     OPACITY = 512  # rays pass some spheres at random
 
 
+class Curve(enum.IntEnum):
+    """A tone curve: radiance to light of a display."""
+
+    NONE = 0  # unchanged
+    REINHARD = 1  # Reinhard et al
+    ACES = 2  # Narkowicz 2015
+    AGX = 3  # Sobotka 2022, base look
+    NEUTRAL = 4  # Khronos PBR Neutral 2024
+
+
 class Light(enum.IntEnum):
     """The result of a comparison of two images."""
 

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from pt._display import automatic_exposure, encode_png, to_srgb8
+from pt._display import encode_png, to_pixels
 from pt._enums import Estimator, Sampler
 from pt._files import Path, format_of, write_atomically
 from pt._stats import ErrorEstimate, Stats
@@ -72,12 +72,13 @@ class Image:
         return (f"<pt.Image {width}x{height}, {self.stats.mean_sample_count:.4g} samples a pixel, "
                 f"error {self.error:.3g} ({low:.3g} to {high:.3g})>")
 
-    def to_srgb8(self, exposure: float | None = None) -> npt.NDArray[np.uint8]:
+    def to_srgb8(self, exposure: float | None = None, **display: Any) -> npt.NDArray[np.uint8]:
         """Returns the sRGB picture, shape (height, width, 3), like pt: radiance times 2^exposure, clamped to [0, 1].
-        exposure defaults to the image's exposure, else brings the average to middle grey, 0.18."""
-        if exposure is None:
-            exposure = self.exposure
-        return to_srgb8(self.radiance, automatic_exposure(self.radiance) if exposure is None else exposure)
+
+        exposure   defaults to the image's exposure, else brings the average to middle grey, 0.18
+        display    curve (a Curve), gamma (in place of sRGB's curve) and white (R, G, B of light that is shown as grey)
+        """
+        return to_pixels(self.radiance, self.exposure if exposure is None else exposure, **display)
 
     def save(self, path: Path, *, exposure: float | None = None) -> None:
         """Writes the picture of to_srgb8 (.png) or the radiance (.npy) atomically. Raises ValueError for another ending."""

@@ -5,7 +5,7 @@ import functools
 import os
 import pathlib
 import sys
-from ctypes import POINTER, c_char_p, c_double, c_int32, c_uint32, c_uint64, c_void_p
+from ctypes import POINTER, c_char_p, c_double, c_float, c_int32, c_uint32, c_uint64, c_void_p
 from typing import Any, Final
 
 from pt import _structs as structs
@@ -53,6 +53,8 @@ PARAMETERS: Final[dict[str, list[Any]]] = {
     "pt_get_film_error_estimate": [c_void_p, POINTER(structs.pt_error_estimate)],
     "pt_compare": [POINTER(structs.pt_compare_info), POINTER(structs.pt_comparison), POINTER(structs.pt_compared_region),
                    POINTER(c_uint32)],
+    "pt_display": [POINTER(structs.pt_display_info)],
+    "pt_automatic_exposure": [POINTER(c_float), c_uint64, POINTER(c_double)],
     "pt_denoise": [POINTER(structs.pt_denoise_info), POINTER(structs.pt_error_estimate)],
 }
 NOT_RESULTS: Final[dict[str, Any]] = {

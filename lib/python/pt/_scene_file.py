@@ -18,7 +18,7 @@ import numpy as np
 from pt import _structs as structs
 from pt._camera import Camera, RenderSettings
 from pt._columns import Array
-from pt._enums import ColumnType, Estimator, MaterialFlag, Projection, Sampler, SceneFileFlag
+from pt._enums import ColumnType, Curve, Estimator, MaterialFlag, Projection, Sampler, SceneFileFlag
 from pt._errors import ERROR_OF_RESULT, BrokenRule, Error, InvalidArgumentError, InvalidSceneError
 from pt._files import Path
 from pt._library import VERSION, library_path
@@ -27,7 +27,7 @@ from pt._text import c_string
 
 SONAME: Final = {"win32": "pt-scene.dll", "darwin": f"libpt-scene.{VERSION}.dylib"}.get(
     sys.platform, f"libpt-scene.so.{VERSION}")
-CURVES: Final = ("none", "reinhard", "aces", "agx", "neutral")
+CURVES: Final = tuple(each.name.lower() for each in Curve)
 COLUMNS: Final = {"center": 3, "radius": 1, "material": 1, "motion": 3, "color": 3, "end": 3, "opacity": 1}
 TYPES: Final = {ColumnType.FLOAT32: np.float32, ColumnType.FLOAT64: np.float64, ColumnType.UINT32: np.uint32,
                 ColumnType.SRGB8: np.uint8}

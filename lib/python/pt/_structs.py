@@ -121,6 +121,13 @@ class pt_device_info(ctypes.Structure):
                 ("name", c_char * 256), ("driver", c_char * 256), ("reason", c_char * 256)]
 
 
+class pt_display_info(Sized):
+    _fields_ = [("struct_size", c_uint32), ("curve", c_uint32), ("bits", c_uint32), ("automatic_exposure", c_uint32),
+                ("exposure", c_double), ("gamma", c_double), ("white", c_double * 3), ("pixel_count", c_uint64),
+                ("radiance", POINTER(c_float)), ("alpha", POINTER(c_float)), ("pixels", c_void_p),
+                ("size_bytes", c_uint64)]
+
+
 class pt_broken_rule(Sized):
     _fields_ = [("struct_size", c_uint32), ("component", c_int32), ("index", c_int64), ("subject", c_char_p),
                 ("member", c_char_p), ("with", c_char_p), ("value", c_char_p), ("rule", c_char_p)]

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from pt._camera import RenderSettings
 from pt._context import Context
-from pt._display import automatic_exposure, encode_png, linear, quantised, signal
+from pt._display import automatic_exposure, encode_png, linear, to_pixels
 from pt._exr import encode_exr
 from pt._files import PICTURES, Path, format_of, write_atomically
 from pt._fit import Array, Doubles, chunks
@@ -266,26 +266,25 @@ class Figure(Image):
             return width, height
         return options.size or (width + _strip_width(raster(self.legend, height, INK), height), height)
 
-    def to_srgb8(self, exposure: float | None = None) -> npt.NDArray[np.uint8]:
+    def to_srgb8(self, exposure: float | None = None, **display: Any) -> npt.NDArray[np.uint8]:
         """Returns sRGB, shape (height, width, 3), or 4 channels with a transparent background. exposure: stops; None:
-        the figure's exposure, else automatic."""
-        pixels: npt.NDArray[np.uint8] = self.picture(np.uint8, exposure)
-        return pixels
+        the figure's exposure, else automatic. display: as in Image, applied to the light over the background."""
+        return self.picture(np.uint8, exposure, **display)
 
-    def picture(self, dtype: Any = np.uint8, exposure: float | None = None) -> npt.NDArray[Any]:
+    def picture(self, dtype: Any = np.uint8, exposure: float | None = None, **display: Any) -> npt.NDArray[Any]:
         exposure = self.exposure if exposure is None else exposure
         exposure = automatic_exposure(self.radiance) if exposure is None else exposure
         options = self._staged.options
         background, ink = _background(options.background)
         light, alpha = compose(self.radiance, self._stage, self._shares, exposure)
         if background is None:
-            whole = signal(light / np.maximum(alpha, 1e-9)[:, :, None])
-            pixels = np.concatenate([whole, alpha[:, :, None]], axis=2)
+            pixels = to_pixels(light, 0.0, dtype, alpha=alpha, **display)
         else:
-            pixels = signal(lay_over(light, alpha, background))
+            pixels = to_pixels(lay_over(light, alpha, linear(background)), 0.0, dtype, **display)
         if options.colorbar and self.legend is not None:
-            pixels = np.hstack([pixels, self._strip(len(pixels), background, ink)])
-        return quantised(pixels, dtype)
+            strip = self._strip(len(pixels), background, ink)
+            pixels = np.hstack([pixels, np.floor(np.iinfo(dtype).max * strip + 0.5).astype(dtype)])
+        return pixels
 
     def _strip(self, height: int, background: Doubles | None, ink: str) -> Doubles:
         width = self.picture_size[0] - self.shape[1]
@@ -296,7 +295,7 @@ class Figure(Image):
         if background is None:
             return strip
         opaque: Doubles = strip[:, :, 3:]
-        result: Doubles = strip[:, :, :3] * opaque + signal(background) * (1.0 - opaque)
+        result: Doubles = strip[:, :, :3] * opaque + background * (1.0 - opaque)
         return result
 
     def encode(self, format: str, *, exposure: float | None = None, bits: int = 8) -> bytes:
@@ -338,8 +337,8 @@ def _background(background: Any) -> tuple[Doubles | None, str]:
     if isinstance(background, str) and background == "transparent":
         return None, INK
     color = (255, 255, 255) if isinstance(background, str) and background == "white" else srgb("background", background)
-    light = linear(np.array(color) / 255.0)
-    return light, INK if light @ (0.2126, 0.7152, 0.0722) > 0.18 else "#dddddd"
+    signal = np.array(color) / 255.0
+    return signal, INK if linear(signal) @ (0.2126, 0.7152, 0.0722) > 0.18 else "#dddddd"
 
 
 def _strip_width(words: Doubles, height: int) -> int:

@@ -5,11 +5,12 @@ import math
 import pathlib
 import re
 import struct
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Final
 
 from pt._columns import Array
-from pt._enums import Estimator, Quantity, Sampler, Uncertain
+from pt._enums import Curve, Estimator, Quantity, Sampler, Uncertain
 from pt._stats import ErrorEstimate
 
 LAYERS: Final = {"mean": Quantity.RADIANCE, "standard error": Quantity.STANDARD_ERROR, "samples": Quantity.SAMPLE_COUNT,
@@ -27,19 +28,19 @@ class Frame:
     pixels: Array | None
     values: tuple[Array, ...] = ()
 
-    def message(self, with_pixels: bool) -> bytes:
-        """Returns the length of the state, the state as JSON, and the pixels as float32, aligned to 4 bytes."""
-        state = json.dumps({**self.state, "frame": self.number, "choices": CHOICES}).encode()
-        state += b" " * (-len(state) % 4)
-        pixels = b"" if self.pixels is None or not with_pixels else self.pixels.tobytes()
+    def message(self, pixels: bytes, stops: float) -> bytes:
+        """Returns the length of the state, the state as JSON, and the pixels."""
+        state = json.dumps({**self.state, "frame": self.number, "stops": stops, "choices": CHOICES}).encode()
         return struct.pack("<I", len(state)) + state + pixels
 
-    def pixel(self, x: int, y: int) -> dict[str, Any]:
+    def pixel(self, x: int, y: int, shown: Callable[[Any], Array]) -> dict[str, Any]:
         if not self.values or not (0 <= y < len(self.values[0]) and 0 <= x < len(self.values[0][0])):
             return {}
         radiance, error, samples = (each[y, x].tolist() for each in self.values)
-        return {"x": x, "y": y, "radiance": radiance, "samples": int(samples[0]),
-                "error": error if all(map(math.isfinite, error)) else None}
+        assert self.pixels is not None
+        layer = [number if math.isfinite(number) else None for number in self.pixels[y, x].tolist()]
+        return {"x": x, "y": y, "radiance": radiance, "samples": int(samples[0]), "layer": layer,
+                "shown": shown(radiance).tolist(),                 "error": error if all(map(math.isfinite, error)) else None}
 
 
 def facts_of(estimate: ErrorEstimate) -> dict[str, Any]:
@@ -54,7 +55,8 @@ def name_of(member: Any) -> str:
     return name
 
 
-CHOICES: Final = {"layer": list(LAYERS), **{name: [name_of(each) for each in kinds] for name, kinds in METHODS.items()}}
+CHOICES: Final = {"layer": list(LAYERS), "curve": [name_of(each) for each in Curve],
+                  **{name: [name_of(each) for each in kinds] for name, kinds in METHODS.items()}}
 
 
 def faults_of(text: str) -> list[dict[str, Any]]:

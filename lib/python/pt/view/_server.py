@@ -13,6 +13,7 @@ import socket
 import threading
 import urllib.parse
 from collections.abc import Awaitable, Callable
+from dataclasses import dataclass, field
 from typing import Any, Final, Protocol
 
 from aiohttp import WSMsgType, http_exceptions, web
@@ -21,6 +22,7 @@ from pt._camera import Camera
 from pt._exr import encode_exr
 from pt._files import regular, write_atomically
 from pt.view._frame import LAYERS, METHODS, Frame, name_of
+from pt.view._look import Look
 
 PAGE: Final = {path.name: path.read_bytes() for path in pathlib.Path(__file__).with_name("page").iterdir()
                if path.suffix in (".html", ".css", ".js")}
@@ -45,6 +47,15 @@ class Show(Protocol):
     def watch(self, is_watched: bool) -> None: ...
 
     def saved(self) -> tuple[str, bytes] | None: ...
+
+
+@dataclass
+class Page:
+    """wanted: set when the page asks for a frame."""
+
+    connection: web.WebSocketResponse
+    look: Look
+    wanted: asyncio.Event = field(default_factory=asyncio.Event)
 
 
 class Server:
@@ -139,11 +150,11 @@ class Server:
             await connection.prepare(request)
             assert self.show
             self.show.watch(True)
-            wanted = asyncio.Event()
-            sender = self._loop.create_task(self._send(connection, wanted))
+            page = Page(connection, Look(self.show.frame.state["display"]))
+            sender = self._loop.create_task(self._send(page))
             async for message in connection:
                 if message.type == WSMsgType.TEXT:
-                    await self._answer(connection, message.data, wanted)
+                    await self._answer(page, message.data)
         finally:
             if sender:
                 sender.cancel()
@@ -159,34 +170,40 @@ class Server:
         self._news.set()
         self._news = asyncio.Event()
 
-    async def _send(self, connection: web.WebSocketResponse, wanted: asyncio.Event) -> None:
+    async def _send(self, page: Page) -> None:
         """Sends the newest frame when the page asks for one. A slow connection gets fewer frames, not late ones."""
         assert self.show
         number, pixels = 0, None
+        look: Look | None = None
         try:
             while True:
-                await wanted.wait()
-                while self.show.frame.number == number:
+                await page.wanted.wait()
+                while self.show.frame.number == number and page.look is look:
                     await self._news.wait()
                 frame = self.show.frame
-                wanted.clear()
-                number, is_new = frame.number, frame.pixels is not pixels
-                pixels = frame.pixels
-                await connection.send_bytes(frame.message(is_new))
+                page.wanted.clear()
+                is_new = frame.pixels is not None and (frame.pixels is not pixels or page.look is not look)
+                number, pixels, look = frame.number, frame.pixels, page.look
+                shown = await self._loop.run_in_executor(None, look.shown, frame) if is_new else b""
+                await page.connection.send_bytes(frame.message(shown, look.stops))
         except ConnectionError:
             pass
 
-    async def _answer(self, connection: web.WebSocketResponse, text: str, wanted: asyncio.Event) -> None:
+    async def _answer(self, page: Page, text: str) -> None:
         assert self.show
+        connection = page.connection
         try:
             message = json.loads(text)
             if not isinstance(message, dict):
                 raise ValueError("a message is an object")
             if "next" in message:
-                wanted.set()
+                page.wanted.set()
+            elif "display" in message:
+                page.look = Look(message["display"], page.look.stops)
+                self._announce()
             elif "pixel" in message:
                 x, y = (_whole(each, 0, MOST_PIXELS) for each in message["pixel"])
-                await connection.send_json({"pixel": self.show.frame.pixel(x, y)})
+                await connection.send_json({"pixel": self.show.frame.pixel(x, y, page.look.pixels)})
             elif "list" in message:
                 await connection.send_json({"files": list(self._files())})
             elif "open" in message:

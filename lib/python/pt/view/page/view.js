@@ -1,12 +1,11 @@
 import {orbit, pan, turnsAbout, zoom} from "./camera.js";
-import {automaticExposure, curves, layerBytes, toBytes} from "./tone.js";
 
 const $ = id => document.getElementById(id);
 
 let socket, editor;
 let state = {};
-let pixels; // Float32Array with RGB of the layer
-let display; // exposure (a number), automatic, curve, gamma (0: the sRGB curve)
+let pixels; // RGBA bytes
+let display; // exposure (a number or "auto"), tonemap, gamma (null: the sRGB curve)
 let camera; // the camera that was sent last
 let pointer;
 let asks = false;
@@ -20,7 +19,7 @@ function receive(buffer) {
   const length = new DataView(buffer).getUint32(0, true);
   const next = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
   if (buffer.byteLength > 4 + length)
-    pixels = new Float32Array(buffer, 4 + length);
+    pixels = new Uint8ClampedArray(buffer, 4 + length);
   const isFirst = display === undefined;
   state = next;
   if (isFirst)
@@ -34,19 +33,17 @@ function receive(buffer) {
 }
 
 function paint() {
-  if (!pixels || pixels.length !== 3 * state.width * state.height)
+  if (!pixels || pixels.length !== 4 * state.width * state.height)
     return;
-  const isMean = state.layer === "mean";
-  if (display.automatic && isMean && !state.moving)
-    display.exposure = automaticExposure(pixels);
   const canvas = $("picture");
   if (canvas.width !== state.width || canvas.height !== state.height)
     [canvas.width, canvas.height] = [state.width, state.height];
-  canvas.getContext("2d").putImageData(new ImageData(layerBytes(state.layer, pixels, display), state.width), 0, 0);
+  canvas.getContext("2d").putImageData(new ImageData(pixels, state.width), 0, 0);
   canvas.dataset.frame = state.frame;
   fit();
-  $("stops").value = `${display.exposure.toFixed(2)} EV`;
-  $("exposure").value = display.exposure;
+  $("stops").value = `${state.stops.toFixed(2)} EV`;
+  if (display.exposure === "auto")
+    $("exposure").value = state.stops;
 }
 
 // Enlarges by an integer factor, so that all pixels have the same size.
@@ -136,11 +133,10 @@ function tellPixel(pixel) {
   asks = false;
   if (pixel.radiance === undefined)
     return;
-  const shown = number => number.toPrecision(5);
-  const [r, g, b] = toBytes(pixel.radiance, display);
+  const shown = number => number?.toPrecision(5) ?? "infinite";
+  const [r, g, b] = pixel.shown;
   const layer = ["mean", "standard error", "samples"].includes(state.layer) ? ""
-    : `${state.layer} ${[0, 1, 2].slice(0, state.layer === "depth" ? 1 : 3)
-      .map(i => shown(pixels[3 * (pixel.y * state.width + pixel.x) + i])).join(" ")}`;
+    : `${state.layer} ${pixel.layer.slice(0, state.layer === "depth" ? 1 : 3).map(shown).join(" ")}`;
   const parts = [`(${pixel.x}, ${pixel.y})`, `radiance ${pixel.radiance.map(shown).join(" ")}`,
                  `standard error ${pixel.error ? pixel.error.map(number => number.toPrecision(2)).join(" ") : "unknown"}`,
                  `sRGB ${r} ${g} ${b}`, `${pixel.samples} samples`, layer];
@@ -241,13 +237,13 @@ const back = () => move(state.first_camera);
 
 function begin() {
   document.title = $("name").textContent = state.name;
-  const {exposure, tonemap, gamma} = state.display;
-  display = {exposure: exposure === "auto" ? 0 : exposure, automatic: exposure === "auto", curve: tonemap, gamma: gamma ?? 0};
-  fill($("curve"), Object.keys(curves), display.curve);
+  display = state.display;
+  fill($("curve"), state.choices.curve, display.tonemap);
   for (const name of ["sampler", "estimator"])
     fill($(name), state.choices[name]);
-  $("gamma").value = gamma ?? "";
-  $("automatic").checked = display.automatic;
+  $("gamma").value = display.gamma ?? "";
+  $("automatic").checked = display.exposure === "auto";
+  $("exposure").value = state.stops;
   for (const layer of state.choices.layer.slice(0, state.camera ? undefined : 3))
     choice($("layers"), layer, () => send({layer}));
   const [width, height] = state.size;
@@ -255,17 +251,15 @@ function begin() {
     choice($("sizes"), part === 1 ? "full" : `1/${part}`,
            () => send({size: [Math.max(Math.floor(width / part), 1), Math.max(Math.floor(height / part), 1)]}));
   const redisplay = () => {
-    display.automatic = $("automatic").checked;
-    display.curve = $("curve").value;
-    display.gamma = +$("gamma").value >= 0.1 ? +$("gamma").value : 0;
-    paint();
-    askPixel();
+    const gamma = +$("gamma").value;
+    display = {exposure: $("automatic").checked ? "auto" : +$("exposure").value, tonemap: $("curve").value,
+               gamma: gamma >= 0.1 && gamma <= 10 ? gamma : null};
+    send({display});
   };
   for (const name of ["curve", "gamma", "automatic"])
     $(name).addEventListener("input", redisplay);
   $("exposure").addEventListener("input", () => {
     $("automatic").checked = false;
-    display.exposure = +$("exposure").value;
     redisplay();
   });
   for (const name of ["sampler", "estimator"])
@@ -312,6 +306,8 @@ function connect() {
   socket.binaryType = "arraybuffer";
   socket.onopen = () => {
     asks = false;
+    if (display)
+      send({display});
     send({list: true});
     send({next: 0});
   };

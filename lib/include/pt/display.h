@@ -1,0 +1,74 @@
+/** @file
+ * pt: pixels for displays and PNG files. Exposure, white point, tone curve and encoding turn radiance into them.
+ *
+ *     pt_display_info display = {0};
+ *     display.struct_size = sizeof display;
+ *     display.automatic_exposure = 1;
+ *     display.pixel_count = width * height;
+ *     display.radiance = radiance;
+ *     display.pixels = bytes;
+ *     display.size_bytes = 3 * width * height;
+ *     result = pt_display(&display);
+ */
+#ifndef PT_DISPLAY_H
+#define PT_DISPLAY_H
+
+#include <pt/pt.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Values of pt_display_info.curve. A curve turns radiance into light of a display, which is clamped to [0, 1]. */
+enum {
+    PT_CURVE_NONE = 0,     /**< unchanged */
+    PT_CURVE_REINHARD = 1, /**< Reinhard et al. 2002, eq. 3, on the luminance */
+    PT_CURVE_ACES = 2,     /**< Narkowicz 2015 */
+    PT_CURVE_AGX = 3,      /**< Sobotka 2022, base look */
+    PT_CURVE_NEUTRAL = 4   /**< Khronos PBR Neutral 2024 */
+};
+
+/** Input and output of pt_display. Arrays have no gaps between pixels. */
+typedef struct pt_display_info {
+    uint32_t struct_size; /**< sizeof(pt_display_info) */
+    uint32_t curve;       /**< PT_CURVE_* */
+    uint32_t bits;        /**< 8 (uint8_t) or 16 (uint16_t in the machine's byte order) per component; 0 for 8 */
+    /** not 0: pt_automatic_exposure of these pixels is the exposure, and `exposure` must be 0 */
+    uint32_t automatic_exposure;
+    double exposure; /**< stops in [-64, 64]; radiance is multiplied by 2^exposure */
+    double gamma;    /**< in [0.1, 10]; the signal is light^(1 / gamma). 0: the sRGB curve (IEC 61966-2-1) */
+    /** R, G, B in [1e-3, 1e3]. Light of this color is shown as grey of its luminance (Rec. 709). All 0 for (1, 1, 1) */
+    double white[3];
+    uint64_t pixel_count;  /**< may be 0 */
+    const float *radiance; /**< linear R, G, B, multiplied by alpha; finite; a negative number counts as 0 */
+    const float *alpha;    /**< one number in [0, 1] per pixel; NULL: all are 1 */
+    void *pixels;          /**< receives R, G, B or, with alpha, R, G, B, A, not multiplied by alpha; any alignment */
+    uint64_t size_bytes;   /**< size of pixels, at least pixel_count times 3, or 4 with alpha, times bits / 8 */
+} pt_display_info;
+
+/** Makes pixels for a display. A component is its signal times 255 or 65535, rounded; halves round up. There is no
+ * dither. Alpha is not encoded.
+ *
+ * A pixel depends only on its own radiance and the display, so several threads may convert parts of a picture.
+ *
+ * Any thread. */
+PT_API pt_result pt_display(const pt_display_info *info);
+
+/** Finds the exposure in stops that brings the average to middle grey, 0.18. It is rounded to hundredths and lies in
+ * [-64, 64].
+ *
+ * The average is the exponential of the mean logarithm (Reinhard, Stark, Shirley, Ferwerda 2002, eqs. 1 and 2).
+ * Differences: the mean of the channels replaces the luminance, which would burn out blue. Pixels below 1/128 of the
+ * level have less weight. The level is the mean after clipping to the mean three times, so a small lamp does not set
+ * it. The exposure of black pixels is 0.
+ *
+ * radiance is as in pt_display_info; it may be NULL if pixel_count is 0.
+ *
+ * Any thread. */
+PT_API pt_result pt_automatic_exposure(const float *radiance, uint64_t pixel_count, double *exposure);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
