@@ -232,7 +232,7 @@ private:
         });
     }
 
-    // Most instructions have their result in word 2. For the others, word 2 is the result of another kept instruction,
+    // Most instructions have their result in word 2. Other instructions have another kept instruction's result there,
     // so noting it is harmless.
     void note_result(Words instruction, std::uint32_t block) {
         const Opcode opcode = opcode_of(instruction);

@@ -35,7 +35,7 @@ ENUMERATIONS = (
                                  "four."),
 )
 
-# For each prefix, the name of the program's table, and the separator of words in value names.
+# For each prefix, the program's table, and the separator between the words of a value's name.
 OF_PROGRAM = {"PT_SAMPLER_": ("samplers", "-"), "PT_SAMPLING_": ("samplings", "-"), "PT_ESTIMATOR_": ("estimators", "-"),
               "PT_PROJECTION_": ("projections", "-"), "PT_CURVE_": ("curves", "-"), "PT_FEATURE_": ("features", "_"),
               "PT_UNCERTAIN_": ("uncertainties", "_")}
@@ -51,7 +51,6 @@ def without_comments(text):
 
 
 def python_type(declared, known):
-    """Pointers to structs that are not in `known` become c_void_p."""
     kind, bracket, count = declared.removeprefix("const ").partition("[")
     if bracket:
         return f"{NUMBERS[kind.strip()]} * {count[:-1]}"

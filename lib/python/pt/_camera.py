@@ -98,7 +98,6 @@ class Camera:
 
     @staticmethod
     def _of_section(section: dict[str, Any]) -> Camera:
-        """Raises ValueError, TypeError or KeyError for a bad section."""
         others = {name: float(section[name]) for name in ("vertical_extent", "aperture", "focus") if name in section}
         angle = section.get("vertical_fov")
         first, last = map(float, section.get("shutter", (0.0, 1.0)))
@@ -153,7 +152,7 @@ class RenderSettings:
     def _struct(self) -> structs.pt_render:
         for name, bits in (("width", 32), ("height", 32), ("max_path_length", 32), ("seed", 64), ("first_sample", 32),
                            ("first_row", 32), ("row_count", 32)):
-            if not 0 <= getattr(self, name) < 2**bits:  # ctypes would reduce the value modulo 2^bits.
+            if not 0 <= getattr(self, name) < 2**bits:  # ctypes would drop the higher bits
                 raise ValueError(f"render.{name} = {getattr(self, name)}: must be at least 0 and below 2^{bits}")
         return structs.pt_render(
             width=self.width, height=self.height, max_path_length=self.max_path_length, seed=self.seed,

@@ -23,7 +23,7 @@ def _readable(array: Array) -> bool:
 
 
 def _laid_out(name: str, array: Array, components: int, count: int | None) -> Array:
-    """Returns shape (count, 3) or (count,). A single value for all rows gets stride 0."""
+    """Returns shape (count, 3) or (count,). A single value for all rows has stride 0."""
     single = (3,) if components == 3 else ()
     if array.shape == single and count is not None:
         return np.broadcast_to(array, (count, *single))
@@ -37,7 +37,7 @@ def _laid_out(name: str, array: Array, components: int, count: int | None) -> Ar
 
 
 def real_column(name: str, values: npt.ArrayLike, components: int, count: int | None) -> Array:
-    """Keeps native float32 and float64. Converts smaller floats to float32, other numbers to float64."""
+    """Keeps native float32 and float64. Smaller floats become float32, and other numbers float64."""
     array = np.asarray(values)
     if array.dtype.kind not in "fiu":
         raise TypeError(f"{name}.dtype = {array.dtype}: must be of real numbers")
@@ -79,7 +79,6 @@ def index_column(name: str, values: npt.ArrayLike, count: int) -> Array:
 
 
 def column_of(array: Array | None) -> structs.pt_column:
-    """The array must outlive the column."""
     if array is None:
         return structs.pt_column()
     stride = array.strides[0] if len(array) > 1 else 0

@@ -27,17 +27,17 @@ class Region:
     light: tuple[float, float, float]  # mean of the second image
     difference: tuple[float, float, float]  # mean of the first image minus mean of the second
     deviation: tuple[float, float, float]  # standard deviation of the difference
-    probability: float  # upper bound: equal light shows such a difference in some region of this size
-    smallest_change: float  # smallest relative change of the region's light that would be found with 99%; infinite if none
+    probability: float  # upper bound for the probability that equal light shows such a difference in some region of this size
+    smallest_change: float  # smallest relative change of the region's light that is found with 99% probability; infinite if none
 
 
 @dataclass(frozen=True)
 class Comparison:
     light: Light
-    probability: float  # upper bound: equal light shows such differences
-    smallest_change: float  # smallest relative change of all light that would be found with 99%; infinite if none
-    smallest_tile_change: float  # the same for one tile of 32 x 32 pixels; median over these tiles
-    rate: float  # for this look: light differs if a probability is at most this
+    probability: float  # upper bound for the probability that equal light shows such differences
+    smallest_change: float  # smallest relative change of all light that is found with 99% probability; infinite if none
+    smallest_tile_change: float  # the same for tiles of 32 x 32 pixels; median of the tiles
+    rate: float  # limit for probabilities in this test: below it the light differs
     summary: str
     regions: tuple[Region, ...]  # the whole picture, then tiles whose sides are halved down to 16 pixels
 

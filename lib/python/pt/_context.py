@@ -62,7 +62,7 @@ class Context:
         self._in_call = False
         self._settings: RenderSettings | None = None
         self._log = log
-        # The log may refer to the context. A weak reference avoids a cycle.
+        # The log may refer to the context, so this reference is weak.
         this = weakref.ref(self)
         self._log_function = log_function(lambda: getattr(this(), "_log", None))
         log_pointer = structs.pt_log_fn(self._log_function)
@@ -257,8 +257,8 @@ class Context:
         handle, guard = self._handle, guard or self._guard()
         if handle is None:
             raise InvalidStateError("the context is closed")
-        # A lock would not do: KeyboardInterrupt may come when its acquire() returns, but not between this test and
-        # `try`. Without a global interpreter lock (PEP 703) the library itself refuses a second call.
+        # A lock would not suffice: KeyboardInterrupt may be raised when acquire() returns, but not between this test and `try`. Without a
+        # global interpreter lock (PEP 703) the library itself refuses a second call.
         if self._in_call:
             raise InvalidStateError("another call on this context is under way")
         self._in_call = True
@@ -272,5 +272,5 @@ class Context:
 
 
 def _destroy(loaded: ctypes.CDLL, handle: ctypes.c_void_p, _log: object) -> None:
-    """Takes `_log` only to keep the library's callbacks alive until the context is destroyed."""
+    """`_log` keeps the library's callbacks alive until the context is destroyed."""
     loaded.pt_destroy(handle)

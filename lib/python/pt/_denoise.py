@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 Pixels = npt.NDArray[np.float32]
 
-OTHER_SEED: Final = 2**63  # The two images' seeds differ in this bit.
+OTHER_SEED: Final = 2**63  # The seeds of the two images differ in this bit.
 FIRST_SAMPLES: Final = 16  # samples of each image before the first check of a target error
 
 
@@ -69,7 +69,7 @@ def find_library() -> str | None:
 
 def render_denoised(context: Context, settings: RenderSettings, samples: int, target_error: float,
                     progress: Progress | None) -> Image:
-    """Checks a target error after 16 samples of each half, and again whenever the number has grown by half."""
+    """Checks the error after 16 samples of each half, and again whenever the number has grown by half."""
     most = max(samples // 2, 1)
     halves = [settings, replace(settings, seed=settings.seed ^ OTHER_SEED)]
     films: list[Film | None] = [None, None]

@@ -11,10 +11,10 @@ class BrokenRule:
     """A broken rule, such as `spheres[3].center[0] = nan: must be finite`."""
 
     subject: str  # "materials", "spheres", "planes", "sphere_arrays", "scene", "camera", "render", ...
-    index: int | None  # only for arrays
-    member: str  # "center"; "" if the rule concerns the argument itself
-    component: int | None  # only for vectors
-    joined_with: str  # "* height" if the rule concerns the product of width and height; else ""
+    index: int | None  # None outside arrays
+    member: str  # "center", or "" for the argument itself
+    component: int | None  # None for scalars
+    joined_with: str  # "* height" if the rule concerns the product of width and height, or ""
     value: str  # "nan"
     rule: str  # "must be finite"
 

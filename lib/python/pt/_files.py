@@ -14,7 +14,7 @@ PICTURES: Final = ("exr", "png", "jpg", "jpeg")
 
 
 def format_of(path: Path, formats: Sequence[str]) -> str:
-    """Returns the lower-case ending without its dot. Raises ValueError for a format that is not listed."""
+    """The lower-case ending without its dot. Raises ValueError for others than `formats`."""
     ending = pathlib.Path(path).suffix.lower().removeprefix(".")
     if ending not in formats:
         *others, last = (f".{each}" for each in formats)
@@ -32,7 +32,6 @@ def regular(path: Path, flags: int) -> int:
 
 
 def write_atomically(path: Path, write: Callable[[BinaryIO], object]) -> None:
-    """Writes a temporary file in the same folder, then renames it."""
     place = pathlib.Path(path)
     beside = place.with_name(f".{place.name}.{uuid.uuid4().hex}")
     try:

@@ -48,7 +48,7 @@ class FilmTile:
     y: int
     width: int
     height: int
-    samples: tuple[range, ...]  # ranges of indices, ascending, never adjacent
+    samples: tuple[range, ...]  # ranges of indices, ascending and not adjacent
 
 
 class Film:
@@ -112,7 +112,7 @@ class Film:
         return total
 
     def __radd__(self, other: int) -> Film:
-        """Accepts 0, with which sum() begins."""
+        """sum() begins with 0."""
         if other != 0:
             return NotImplemented
         return self

@@ -19,7 +19,7 @@ def chunks(count: int) -> Iterator[slice]:
 
 
 def coordinates(rows: Array) -> Doubles:
-    """Returns shape (3, n), because NumPy is slow along an axis of length three."""
+    """Returns shape (3, n), because NumPy is slow along an axis of length 3."""
     return rows.T.astype(np.float64, order="C")
 
 
@@ -30,13 +30,11 @@ class Spin:
 
 
 def reach(centers: Array, radii: Array, axes: Doubles, directions: Doubles, spin: Spin | None = None) -> Doubles:
-    """The balls' support function: the maximum of dot(direction, center) + radius for each direction.
+    """The support function of the balls: the maximum of dot(direction, center) + radius for each direction.
 
-    centers      shape (n, 3), n >= 1
-    radii        shape (n,)
-    axes         shape (3, 3); unit vectors in rows
-    directions   shape (k, 3); unit vectors in the coordinates of the axes
-    spin         rotation of the balls; the result covers every angle
+    centers shape (n, 3), n >= 1 radii shape (n,) axes shape (3, 3); unit vectors in rows directions shape (k, 3); unit vectors in the
+    coordinates of the axes spin rotation of the balls; the result covers every angle
+
     """
     farthest = np.full(len(directions), -np.inf)
     world = directions @ axes
@@ -60,7 +58,7 @@ def reach(centers: Array, radii: Array, axes: Doubles, directions: Doubles, spin
 
 
 def _dot(direction: Doubles, places: Any) -> Doubles:
-    """Adds products in a fixed order and skips zero factors, so that all machines round alike."""
+    """Adds products in a fixed order and skips zero factors, so all machines round alike."""
     terms = [factor * place for factor, place in zip(direction, places, strict=True) if factor != 0.0]
     total: Doubles = terms[0]
     for term in terms[1:]:
@@ -68,7 +66,7 @@ def _dot(direction: Doubles, places: Any) -> Doubles:
     return total
 
 
-SIDES: Final = np.vstack([np.eye(3), -np.eye(3)])  # right, up, forward, then their opposites
+SIDES: Final = np.vstack([np.eye(3), -np.eye(3)])  # right, up, forward, and their opposites
 
 
 @dataclass(frozen=True)
@@ -101,10 +99,12 @@ def pyramid(tangents: tuple[float, float]) -> Doubles:
 def apex(reaches: Doubles, axes: Doubles, normals: Doubles) -> Doubles:
     """The nearest pinhole that sees balls with these reaches along the pyramid's normals.
 
-    A ball with center c and radius r is in view of the pinhole p if dot(n, p) >= dot(n, c) + r for each outward normal
-    n. All balls are if dot(n, p) >= s with the reach s. With the horizontal half angle a, the normals are -+cos(a) right
-    - sin(a) forward. Their sum gives dot(forward, p) <= -(s_left + s_right) / (2 sin a). Their difference gives
-    dot(right, p) = (s_right - s_left) / (2 cos a).
+    A ball with center c and radius r is in view of the pinhole p if dot(n, p) >= dot(n, c) + r for each outward normal n. All balls are
+    in view if dot(n, p) >= s with the reach s. With the horizontal half angle a, the normals are -+cos(a) right
+    - sin(a) forward. Their sum gives dot(forward, p) <= -(s_left + s_right) / (2 sin a). Their difference gives dot(right, p) = (s_right
+    - s_left) / (2 cos a).
+
+
     """
     right, above, forward = axes
     low, high = -reaches[0::2], -reaches[1::2]

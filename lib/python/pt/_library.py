@@ -16,7 +16,7 @@ VERSION: Final = "0.4"
 SONAME: Final = {"win32": "pt.dll", "darwin": f"libpt.{VERSION}.dylib"}.get(sys.platform, f"libpt.so.{VERSION}")
 BROKEN_RULES_KEPT: Final = 8
 
-# Every function must be listed: without types, ctypes truncates pointers to 32 bits.
+# Without types ctypes truncates pointers to 32 bits, so every function is listed.
 PARAMETERS: Final[dict[str, list[Any]]] = {
     "pt_version": [],
     "pt_result_name": [c_int32],
@@ -72,8 +72,8 @@ def library_path() -> str:
 
 
 def load_library(path: str) -> ctypes.CDLL:
-    """Its functions release the interpreter's lock. Raises ImportError if the library is missing or has other structs.
-    Functions that an older build lacks raise AttributeError on call."""
+    """The functions release the interpreter's lock. Raises ImportError if the library is missing or has other structs. A function that an
+    older build lacks raises AttributeError when called."""
     try:
         loaded = ctypes.CDLL(path)
         for name, parameters in PARAMETERS.items():
@@ -119,8 +119,8 @@ def _broken_rules(loaded: ctypes.CDLL, context: c_void_p | None) -> tuple[Broken
 
 
 def checked(loaded: ctypes.CDLL, result: int, context: c_void_p | None = None) -> Result:
-    """Raises a negative result as an error. The library keeps the message until the next call on the context, or until
-    the thread's next call without a context."""
+    """Raises negative results as errors. The library keeps a message until the next call on the context, or without a context until the
+    thread's next call."""
     if result >= 0:
         return Result(result)
     message = _text(loaded.pt_last_error(context))

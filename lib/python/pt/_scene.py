@@ -170,7 +170,7 @@ class _Materials:
 
 
 class SceneStruct:
-    """A pt_scene with its arrays. The object must outlive the struct."""
+    """A pt_scene. Its arrays live as long as this object."""
 
     def __init__(self, scene: Scene, guard: CallbackGuard, progress: Progress | None) -> None:
         materials = _Materials(scene.materials)

@@ -47,7 +47,7 @@ NOT_RESULTS: Final[dict[str, Any]] = {"pt_close_scene_file": None, "pt_get_colum
 
 @functools.lru_cache(maxsize=1)
 def scene_library() -> ctypes.CDLL:
-    """Loads the library beside libpt, else the system's. ImportError: missing."""
+    """The library beside libpt, or else the system's. Raises ImportError if it is missing."""
     beside = pathlib.Path(library_path()).with_name(SONAME)
     path = str(beside) if beside.exists() else SONAME
     try:
@@ -89,9 +89,9 @@ class Display:
 
 @dataclass(frozen=True)
 class SceneFile:
-    """What a scene file contains.
+    """The contents of a scene file.
 
-    samples   samples of a pixel; None: the file has no number
+    samples   samples of a pixel; None if the file has no number
     files     files of columns
     """
 
@@ -104,8 +104,8 @@ class SceneFile:
     _handle: _Handle = field(repr=False, compare=False)
 
     def explained(self, error: Error) -> Error:
-        """The error in the file's words: "scene.json:7: materials.gold.glossiness = -1: must be >= 0". An override's
-        value is an InvalidArgumentError."""
+        """Returns the error in the file's words: "scene.json:7: materials.gold.glossiness = -1: must be >= 0". A wrong override gives an
+        InvalidArgumentError."""
         if not error.broken_rules:
             return error
         sources = [self._handle.source(rule) for rule in error.broken_rules]
@@ -141,8 +141,6 @@ def scene_schema() -> dict[str, Any]:
 
 
 class _Handle:
-    """Owns a pt_scene_file."""
-
     def __init__(self, path: Path, text: str | None, overrides: list[Override], frame: int | None) -> None:
         self._library = scene_library()
         self._pointer = c_void_p()
@@ -174,7 +172,7 @@ class _Handle:
         return tuple(found)
 
     def source(self, rule: BrokenRule) -> tuple[str, int]:
-        """Message, and the number of the override that has the value, or -1."""
+        """Returns the message, and the number of the override with the value, or -1."""
         broken = structs.pt_broken_rule(
             component=-1 if rule.component is None else rule.component, index=-1 if rule.index is None else rule.index,
             subject=rule.subject.encode(), member=rule.member.encode(), value=rule.value.encode(), rule=rule.rule.encode(),
@@ -195,7 +193,7 @@ class _Handle:
         return SphereArray(**{name: column for name, column in columns.items() if column is not None})
 
     def _column(self, column: structs.pt_column, count: int, length: int) -> Array | None:
-        """A view of the file's memory, which keeps this object alive."""
+        """Returns a view of the file's memory. The view keeps this object alive."""
         if not column.data:
             return None
         dtype = np.dtype(TYPES[ColumnType(column.type)])

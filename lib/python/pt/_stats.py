@@ -14,15 +14,15 @@ from pt._library import checked, library
 class Stats:
     """Fields that only a context knows are 0 for a film."""
 
-    sample_count: int  # fewest of a pixel
-    max_sample_count: int  # most of a pixel (Sampling.ADAPTIVE)
+    sample_count: int  # of the pixel with the fewest
+    max_sample_count: int  # of the pixel with the most (Sampling.ADAPTIVE)
     mean_sample_count: float
     rejected_samples: int  # NaN, infinite, negative or too bright
     features: Feature
-    device_bytes: int  # present memory on all devices of the context
+    device_bytes: int  # memory now used on all devices of the context
     device_count: int
     device_seconds: float  # sum over submissions
-    submit_count: int  # submissions with samples
+    submit_count: int  # submissions that took samples
 
 
 def stats_of(struct: structs.pt_stats) -> Stats:
@@ -59,7 +59,7 @@ class DeviceInfo:
     kind: DeviceKind
     driver: str
     memory_bytes: int  # size of the largest memory heap that kernels can access quickly
-    uuid: uuid.UUID  # stable over reboots; differs between devices of one model
+    uuid: uuid.UUID  # same after a reboot; differs between devices of one model
     suitable: bool  # whether a Context can use the device
     reason: str
 

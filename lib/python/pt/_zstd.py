@@ -1,4 +1,4 @@
-"""Compression by zstd, with any Python module that offers it."""
+"""Compression by zstd with whichever Python module is installed."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ def module() -> Any:
 
 
 def packer(size: int) -> Any:
-    """Returns an object with compress(piece) and flush(), or None without a module. The frame states its contents' size,
-    which film readers need."""
+    """Returns an object with compress(piece) and flush(), or None without a module. The frame states the size of its contents, as film
+    readers require."""
     found = module()
     if found is None:
         return None
-    if hasattr(found.ZstdCompressor, "compressobj"):  # The module zstandard has it.
+    if hasattr(found.ZstdCompressor, "compressobj"):  # the module zstandard
         return found.ZstdCompressor().compressobj(size=size)
     compressor = found.ZstdCompressor()
     compressor.set_pledged_input_size(size)

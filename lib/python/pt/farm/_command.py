@@ -27,7 +27,7 @@ from pt.farm._render import render
 from pt.farm._shown import Shown, Signals
 from pt.farm._sum import write_film
 
-SAMPLES, SAMPLES_TO_ERROR = 64, 65536  # of pt render
+SAMPLES, SAMPLES_TO_ERROR = 64, 65536  # as in pt render
 
 
 @contextlib.contextmanager
@@ -59,7 +59,7 @@ def cluster(arguments: argparse.Namespace) -> Iterator[Any]:
 
 
 def program() -> str:
-    """PT_PROGRAM, else the installed package's, else the PATH's."""
+    """PT_PROGRAM, or the installed package's, or the PATH's."""
     packaged = pathlib.Path(__file__).parents[1] / "bin" / "pt"
     return os.environ.get("PT_PROGRAM") or (str(packaged) if packaged.exists() else "pt")
 
@@ -127,7 +127,7 @@ def render_pictures(arguments: argparse.Namespace, signals: Signals) -> int:
                     raise file.explained(Error(str(error), error.broken_rules)) from error
                 raise
             if signals.number and frame is not None:
-                break  # Do not write an unfinished frame.
+                break  # The frame is unfinished.
             write_pictures(result.film, arguments, file.display, frame)
             signals.is_rendering = False
             if len(result.devices) > 1 and not arguments.quiet:

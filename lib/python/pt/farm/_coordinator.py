@@ -23,12 +23,12 @@ from pt.farm._sum import Sum, read_film, write_film
 from pt.farm._workers import MOST_FETCHED, Member, Try, now, submit
 
 TICK = 0.25
-SLOTS = 2  # parts per worker; one is rendered while another is transferred
+SLOTS = 2  # parts per worker: one is rendered while another is transferred
 
-# Number of tiles that keeps a device busy. CPU: 4 for each of 16 cores. GPU: 262,144 pixels.
+# Numbers of tiles that keep a device busy: on a CPU 4 for each of 16 cores, on a GPU 262,144 pixels.
 LEAST_TILES = {True: 64, False: 4096}
 LEAD = 0.05
-LATE = 3.0  # A part is late after this multiple of its expected duration.
+LATE = 3.0  # multiple of the expected duration after which a part is late
 LOOK_SHARE = 0.05
 
 
@@ -39,7 +39,7 @@ class _Opened(NamedTuple):
 
 
 class Coordinator:
-    """final: samples per pixel at the end; 0 if undecided."""
+    """`final` is the number of samples per pixel at the end, or 0 while this is undecided."""
 
     def __init__(self, client: Any, job: Job, options: Options,
                  show: Callable[[Progress, Film | None], object], final: int) -> None:
@@ -74,11 +74,11 @@ class Coordinator:
 
 
     def run(self, goals: Goals, more: Callable[[], Goals | None] = lambda: None) -> bool:
-        """Returns False if progress() stopped the work. `more` returns further goals for tiles without running parts. It
-        is called once all parts are distributed and some have returned."""
+        """Returns False if progress() stopped the work. `more` returns further goals for tiles without running parts. It is called when all
+        parts are distributed and some have returned."""
         first_sample, has_worked = self._job.settings.first_sample, False
         self._goals = goals
-        while not self._stopped:  # The film decides completeness, not the list of parts.
+        while not self._stopped:  # The film decides whether all is complete, not the list of parts.
             if self._cells is None or self._cells_at != self._progress.parts:
                 self._cells, self._cells_at = cells_of(self._sum.film, self._shape), self._progress.parts
             missing = missing_parts(self._cells, first_sample, self._goals)
@@ -111,8 +111,8 @@ class Coordinator:
         self._progress.samples_wanted = float((wanted * self._pixels).sum() / self._pixels.sum())
 
     def _seconds_to_ask(self) -> float:
-        """Seconds until `more` is called. The call should be late, because more tiles can then be planned together, but
-        before a worker is idle. Calls take at most half of the time."""
+        """Seconds until `more` is called: late, so that more tiles are planned together, but before a worker is idle. Calls take at most
+        half of the time."""
         if self._waiting or not self._open or not self._has_only or self._progress.parts == self._asked_at:
             return float("inf")
         idle = min((member.busy_until for member in self._crew if member.can_take(SLOTS)), default=float("inf"))
@@ -211,7 +211,7 @@ class Coordinator:
             self._waiting.appendleft((each.number, each.part))
 
     def _may_try(self, member: Member, number: int) -> bool:
-        """After a failure a worker gets a part again only if all others failed."""
+        """A worker that failed gets the part again only if all others failed."""
         if any(each.number == number for each in member.tries.values()):
             return False
         tried = self._tries.get(number, [])
@@ -252,11 +252,11 @@ class Coordinator:
 
 
     def _met(self, future: Any, outcome: _task.Outcome | None) -> None:
-        """Called by threads."""
+        """Runs on other threads."""
         self._tell_of(future, *self._opened(_task.first_part(self._job), outcome, None))
 
     def _tell_of(self, *event: Any) -> None:
-        """Waits while the queue is full, to bound the memory of films."""
+        """Waits while the queue is full, which limits the memory of films."""
         while not self._closed:
             with contextlib.suppress(queue.Full):
                 self._events.put(event, timeout=TICK)
@@ -264,7 +264,7 @@ class Coordinator:
 
     def _opened(self, part: Part, outcome: _task.Outcome | None, identity: Identity | None
                 ) -> tuple[_task.Outcome | None, _Opened | None]:
-        """Called by threads. identity: expected identity of the film."""
+        """Runs on other threads. `identity` is the expected identity of the film."""
         if outcome is None or outcome.error:
             return outcome, None
         try:

@@ -14,7 +14,7 @@ LOOK_SECONDS = 0.25
 
 
 class Crew:
-    """identity: of the films so far. mixed: whether other devices may join."""
+    """`identity` belongs to the films so far. `mixed` allows other devices."""
 
     def __init__(self, client: Any, packed: bytes, done: Done, progress: Progress, identity: Identity | None, *,
                  mixed: bool, patience: float) -> None:
@@ -37,7 +37,7 @@ class Crew:
         return any(member.identity for member in self)
 
     def look(self) -> list[tuple[str, Try]]:
-        """Returns addresses and tries of departed workers. Raises FarmError if no worker is left."""
+        """Returns addresses and tries of workers that have left. Raises FarmError if no worker is left."""
         if now() - self._looked < LOOK_SECONDS:
             return []
         try:
@@ -80,7 +80,7 @@ class Crew:
             self._compare(member, identity)
 
     def blame(self, member: Member, outcome: Outcome, most: int = MOST_FAILURES) -> None:
-        """Raises FarmError if another worker could not do better."""
+        """Raises FarmError if no other worker could do better."""
         self._progress.failed += 1
         self._progress.last_result = outcome.result
         if not outcome.may_help_elsewhere:

@@ -7,7 +7,7 @@ import importlib
 from dataclasses import dataclass
 
 FIRST, LAST = "scene", "device"
-WORTH_ANOTHER_WORKER = ("estimator_version", "kernel", LAST)  # These depend on workers, not on the picture.
+WORTH_ANOTHER_WORKER = ("estimator_version", "kernel", LAST)  # depend on workers, not on the picture
 CHECKSUM_BYTES = 8
 
 
@@ -34,7 +34,7 @@ def identity_of(data: bytes) -> Identity:
 
 
 def with_models(data: bytes, models: frozenset[str]) -> bytes:
-    """Replaces the devices, so that films of mixed devices can be added. Raises ImportError without xxhash."""
+    """Replaces the models of devices, so that films of mixed devices can be added. Raises ImportError without xxhash."""
     xxhash = importlib.import_module("xxhash")
     header = _header(data)
     start = header.index(b"\n" + LAST.encode() + b" ") + 1

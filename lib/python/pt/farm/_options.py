@@ -9,8 +9,10 @@ from pt._files import Path
 
 
 class FarmError(RuntimeError):
-    """The message has the workers' reports; the checkpoint has the returned films. result: the library's error, or
-    ERROR_INTERNAL. broken_rules: those of a worker's error."""
+    """The message has the workers' reports. The checkpoint has the returned films.
+
+    result         the library's error, or ERROR_INTERNAL
+    broken_rules   broken rules in a worker's error"""
 
     def __init__(self, message: str, result: int = enums.Result.ERROR_INTERNAL,
                  broken_rules: tuple[BrokenRule, ...] = ()) -> None:
@@ -43,12 +45,12 @@ class Options:
 
 @dataclass
 class Progress:
-    """issued: number of merged, dropped, failed, lost and running parts."""
+    """`issued` counts all parts: merged, dropped, failed, lost or running."""
 
     seconds: float = 0.0
     samples: float = 0.0  # mean over all pixels
-    samples_wanted: float = 0.0  # final mean, as far as decided
-    error: float = float("inf")  # relative error; error_high is its upper bound with 95% confidence
+    samples_wanted: float = 0.0  # final mean, if it is already decided
+    error: float = float("inf")  # relative error; error_high is the upper bound with 95% confidence
     error_high: float = float("inf")
     workers: int = 0
     parts: int = 0
@@ -57,10 +59,10 @@ class Progress:
     dropped: int = 0
     failed: int = 0
     lost: int = 0
-    forgotten: int = 0  # samples that got lost and are rendered again
+    forgotten: int = 0  # samples that were lost and are rendered again
     part_bytes: int = 0
     messages: list[str] = field(default_factory=list)
-    last_result: int = enums.Result.OK  # of the library, for the last error
+    last_result: int = enums.Result.OK  # the library's result in the last error
     ended_by: str = ""  # "samples", "error" or "limit"; "stopped" if progress() returned True
 
     def line(self) -> str:
@@ -79,5 +81,5 @@ class Result:
 
     @property
     def devices(self) -> tuple[str, ...]:
-        """Models and drivers. Several give other bits than one machine."""
+        """Models and drivers. Films of several have other bits than one machine's."""
         return tuple(self.film.info.device.split(" and "))

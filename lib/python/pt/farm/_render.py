@@ -47,7 +47,7 @@ def render(client: Any, job: Job, samples: int, *, target_error: float = 0.0, sa
 
 
 def _to_samples(coordinator: Coordinator, job: Job, samples: int) -> Result:
-    """Renders in steps, so that the picture always covers all pixels."""
+    """Renders in steps, so the picture always covers all pixels."""
     shape = grid_shape(job.settings.width, job.settings.height)
     steps = [np.full(shape, count, np.uint32) for count in _counts_to(samples)]
     ended = True
@@ -67,8 +67,7 @@ def _counts_to(samples: int) -> Iterator[int]:
 
 def _to_error(coordinator: Coordinator, job: Job, samples: int, target_error: float, sampling: Sampling) -> Result:
     def further() -> Goals | None:
-        """Plans returned tiles while others are running. This is possible because a tile's plan depends only on its own
-        samples (lib/film/adaptive_rule.h)."""
+        """Plans returned tiles while others are running. A tile's plan depends only on its own samples (lib/film/adaptive_rule.h)."""
         result, planned = coordinator.film.plan(target_error, samples)
         return planned if result == Outcome.PENDING else None
 

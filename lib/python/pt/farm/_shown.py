@@ -13,7 +13,7 @@ SHOWN_EVERY = 1.0  # seconds
 
 
 class Signals:
-    """SIGINT, SIGTERM and SIGHUP end a rendering with the samples so far. A second signal ends the process at once."""
+    """SIGINT, SIGTERM and SIGHUP end a rendering with the samples so far. A second signal ends the process."""
 
     def __init__(self) -> None:
         self.number = 0

@@ -1,6 +1,6 @@
 from __future__ import annotations
 
-FIRST_GUESS = 2000.0  # samples of tiles per second; a slow core
+FIRST_GUESS = 2000.0  # samples of tiles per second on a slow core
 LEAST_SECONDS = 0.1
 REMEMBERED = 5.0
 BUSY_SHARE = 0.5  # fraction of the coordinator's time for adding films
@@ -12,7 +12,7 @@ class Speed:
         self._work = self._seconds = 0.0
 
     def measure(self, work: int, seconds: float) -> None:
-        """Weights by seconds, because short parts are mostly overhead."""
+        """Long parts count more, because short ones are mostly overhead."""
         kept = min(REMEMBERED / self._seconds, 1.0) if self._seconds else 0.0
         self._work = kept * self._work + work
         self._seconds = kept * self._seconds + max(seconds, 1e-6)
@@ -22,8 +22,8 @@ class Speed:
         return work / self.value
 
     def share(self, part_seconds: float, least_seconds: float, remaining: int, all_speeds: float) -> int:
-        """The work of a part that takes part_seconds. Near the end parts shrink with the remaining work (guided
-        self-scheduling: Polychronopoulos and Kuck 1987)."""
+        """The work of a part that takes part_seconds. Parts shrink near the end with the remaining work (guided self-scheduling:
+        Polychronopoulos and Kuck 1987)."""
         together = 0.5 * remaining / all_speeds
         return max(int(self.value * max(min(part_seconds, together), least_seconds)), 1)
 

@@ -14,9 +14,9 @@ from pt.farm._identity import Identity, identity_of, with_models
 from pt.farm._workers import now
 
 PIXEL_BYTES = 112
-# Parts are first added to one another, up to this fraction of a film: an addition to a film takes time for each tile.
+# An addition to a film takes time for each tile, so parts are first added to one another, up to this fraction of a film.
 BATCH_SHARE = 1 / 32
-SHOW_SHARE = 0.02  # fraction of the time for early additions, which keep the picture recent
+SHOW_SHARE = 0.02  # fraction of the time for early additions, which show recent samples
 
 
 class Sum:
@@ -70,8 +70,8 @@ class Sum:
 
 
 def _give_back() -> None:
-    """Returns freed memory to the system. glibc keeps some for each thread, together more than a film."""
-    with contextlib.suppress(AttributeError, OSError):  # The C library is not glibc.
+    """Returns freed memory to the system. For each thread glibc keeps some, together more than a film."""
+    with contextlib.suppress(AttributeError, OSError):  # the C library is not glibc
         ctypes.CDLL(None).malloc_trim(0)
 
 

@@ -16,7 +16,7 @@ from pt.farm._job import Job, name_of, unpacked
 from pt.farm._part import Part
 from pt.farm._renderer import Renderer
 
-CLOCKS = 1.01  # largest assumed ratio of two machines' clock rates
+CLOCKS = 1.01  # largest assumed ratio of the clock rates of two machines
 PERMANENT = (InvalidSceneError, InvalidArgumentError, IncompatibleError)
 
 
@@ -32,7 +32,7 @@ class Outcome:
 
 
 def fault_of(value: object, seconds: float) -> str:
-    """Returns "" for a good value, because a worker may send anything. seconds: time since submission."""
+    """Returns "" for a good value. A worker may send anything. `seconds` is the time since submission."""
     if not isinstance(value, Outcome):
         return f"a value of type {type(value).__name__}"
     for name, kind in (("data", bytes), ("seconds", float), ("is_cpu", bool), ("error", str),
@@ -59,7 +59,7 @@ class _Ready:
     has_failed: bool = False
 
 
-_lock = threading.Lock()  # All threads of a worker share one renderer.
+_lock = threading.Lock()  # all threads of a worker share one renderer
 _ready: _Ready | None = None
 
 
@@ -90,7 +90,7 @@ def render_part(name: str, part: Part, codecs: frozenset[str]) -> Outcome:
         try:
             if _ready is None or _ready.name != name:
                 raise RuntimeError("this worker has another job")
-            if _ready.has_failed:  # A lost device needs a new context or process.
+            if _ready.has_failed:  # a lost device needs a new context or process
                 _ready.renderer.close()
                 _ready.renderer, _ready.has_failed = Renderer(_ready.job), False
             start = time.monotonic()

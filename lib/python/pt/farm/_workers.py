@@ -13,7 +13,7 @@ from pt.farm._part import Part
 from pt.farm._speed import Speed
 from pt.farm._task import Outcome, fault_of
 
-FETCH_SECONDS = 60.0  # time limit for fetching a film, up to 35 MB at 1920x1080
+FETCH_SECONDS = 60.0  # time limit for a film of up to 35 MB (1920x1080)
 MOST_FETCHED = 16
 
 _fetching = threading.BoundedSemaphore(MOST_FETCHED)
@@ -40,7 +40,7 @@ class Member:
     tries: dict[Any, Try] = field(default_factory=dict)
     introduction: Any = None
     failures: int = 0
-    is_late: bool = False  # A late worker gets nothing until it returns something.
+    is_late: bool = False  # gets nothing until it returns something
     is_banned: bool = False
 
     @property
@@ -56,14 +56,13 @@ class Member:
 
 
 def addresses(client: Any) -> set[str]:
-    """Raises OSError if the scheduler is gone."""
     if client.status not in ("running", "connecting"):
         raise OSError("the connection to the scheduler has ended")
     return set(client.nthreads())
 
 
 def submit(client: Any, address: str, done: Done, function: Callable[..., Any], *arguments: Any) -> Any:
-    """Fetches the result from the worker itself. Calls done in another thread."""
+    """Calls done in another thread. Fetches the result directly from the worker."""
     start = now()
     future = client.submit(function, *arguments, workers=[address], allow_other_workers=False, pure=False, retries=0)
 
@@ -80,13 +79,13 @@ def submit(client: Any, address: str, done: Done, function: Callable[..., Any], 
 
 
 async def _gathered(client: Any, future: Any) -> object:
-    """Limits the waiting time. Dask fetches only five results at a time, so a few stopped workers would block all."""
+    """Dask fetches only five results at a time, so a few stopped workers would block all without this limit."""
     results = await asyncio.wait_for(client.gather([future], direct=True, asynchronous=True), FETCH_SECONDS)
     return results[0]
 
 
 def _fetched(client: Any, future: Any, seconds: float) -> Outcome | None:
-    """A fault of a living worker becomes an outcome that counts against it."""
+    """If the worker lives, a fault becomes an outcome that counts against it."""
     if future.status not in ("finished", "error"):
         return None
     try:

@@ -24,13 +24,13 @@ _COLORS: Final = (("red", "green", "blue", "alpha"), ("r", "g", "b", "a"),
                   ("diffuse_red", "diffuse_green", "diffuse_blue", "diffuse_alpha"),
                   *(tuple(f"{name}[{i}]" for i in range(4)) for name in ("color", "colors", "rgb", "rgba")),
                   *(tuple(f"{name}:{i}" for i in range(4)) for name in ("color", "rgb")))
-_HARMONICS: Final = ("f_dc_0", "f_dc_1", "f_dc_2")  # Spherical harmonics of degree 0 color Gaussian splats.
+_HARMONICS: Final = ("f_dc_0", "f_dc_1", "f_dc_2")  # colors of Gaussian splats: spherical harmonics of degree 0
 _HARMONIC: Final = 0.5 / np.sqrt(np.pi)
-_SHAPES: Final = (("shapex", "shapey", "shapez"), ("c_shape[1]", "c_shape[2]", "c_shape[3]"))  # diameters, in LAMMPS
+_SHAPES: Final = (("shapex", "shapey", "shapez"), ("c_shape[1]", "c_shape[2]", "c_shape[3]"))  # diameters in LAMMPS
 
 
 def assembled(name: str, given: Table, mapping: Mapping[str, str], drop_nonfinite: bool) -> Particles:
-    """The mapping, such as {"x": "pos_x", "radius": "r"}, replaces names."""
+    """`mapping`, such as {"x": "pos_x", "radius": "r"}, replaces names."""
     notes = list(given.notes)
     parts, table = split_columns(name, given.columns)
     chosen = {role: column_name(parts, source, name) for role, source in mapping.items()}
@@ -95,7 +95,6 @@ def _common_table(columns: list[Array]) -> Array | None:
 
 
 def _flushed(positions: Array) -> Array:
-    """Replaces rounding residues such as 3e-19 by 0."""
     least, largest = np.inf, 0.0
     for rows in chunks(len(positions)):
         sizes = np.abs(positions[rows])
@@ -129,7 +128,7 @@ def _finite(particles: Particles, drop: bool) -> Particles:
 
 
 def _note_coinciding(particles: Particles) -> None:
-    """Compares one projection of each position. Of many particles, only those whose hash begins with zeros are compared."""
+    """Compares one projection of each position. If there are many particles, compares only those whose hash begins with zeros."""
     count, bits = len(particles), (len(particles) // MOST_SORTED).bit_length()
     if count > MOST_COMPARED:
         return
@@ -173,7 +172,7 @@ def _put_radii(particles: Particles, chosen: dict[str, str]) -> None:
 
 
 def _with_extent(particles: Particles) -> Particles:
-    """If all radii are 0, they count as unknown."""
+    """If all radii are 0, they are unknown."""
     if particles.radii is None or (particles.radii != 0).all():
         return particles
     count = int((particles.radii == 0).sum())
@@ -186,7 +185,7 @@ def _with_extent(particles: Particles) -> Particles:
 
 
 def _put_labels(particles: Particles, chosen: dict[str, str]) -> None:
-    """Sets elements or, without them, types. A column `type` has elements if most of its words are known symbols."""
+    """Sets elements or types. A column `type` has elements if most of its words are known symbols."""
     columns = particles.columns
     element, kind = (chosen.get(role) or first_of(columns, names) for role, names in
                      (("element", ELEMENTS), ("type", TYPES)))
@@ -207,7 +206,7 @@ def _are_numbers(labels: Array) -> bool:
 
 
 def _colors(columns: Mapping[str, Array], chosen: dict[str, str], is_text: bool, notes: list[str]) -> Array | None:
-    """The type of floats and unsigned integers decides the scale. For other integers and text the largest number does."""
+    """The type of floats and unsigned integers decides the scale. For other integers and for text, the largest number does."""
     choices = (tuple(chosen.get(key, key) for key in _COLORS[0]), *_COLORS)
     found = next((names for names in ([first_of(columns, (name,)) for name in choice] for choice in choices)
                   if None not in names[:3]), None)

@@ -20,7 +20,7 @@ from pt.figures._templates import agreeing, free_ions, known_residues
 # alternative positions of one atom. Angstroms.
 TOLERANCE: Final = 0.45
 LEAST_DISTANCE: Final = 0.4
-BALL_SHARE: Final = 0.5  # radius of a ball with sticks, relative to the full radius; by taste
+BALL_SHARE: Final = 0.5  # radius of a ball with sticks, relative to its full radius; by taste
 STICK_SHARES: Final = {"space-filling": 0.07, "ball-and-stick": 0.07, "sticks": 0.14}
 
 
@@ -74,7 +74,7 @@ def _of_pairs(particles: Particles, pairs: Array) -> Bonds:
 
 
 def _with_images(particles: Particles, bonds: Bonds) -> Bonds:
-    """Leads each bond to the nearest image of its second particle. Bonds must be shorter than half of the cell's thickness."""
+    """Leads each bond to the nearest image of its second particle. Bonds must be shorter than half of the thickness of the cell."""
     if particles.cell is None or bonds.images is not None:
         return bonds
     first, second = bonds.pairs.T
@@ -140,7 +140,7 @@ def stick_radius(ways: Doubles, model: str, radii: Array) -> float:
 
 
 def meeting_in_sight(halves: Rods, balls: Array) -> Rods:
-    """Lets both halves end in the middle of the visible part of the bond. balls: radii, shape (n,) or (1,)."""
+    """Lets both halves end in the middle of the visible part of the bond. `balls` has radii, shape (n,) or (1,)."""
     if len(balls) == 1:
         return halves
     lengths = 2.0 * np.linalg.norm(halves.ways, axis=1)

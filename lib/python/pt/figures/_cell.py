@@ -56,12 +56,12 @@ class Cell:
         if rest < 0:
             return None
         rows = np.array([[a, 0, 0], [b * gamma, b * sine, 0], [c * beta, c * across, c * np.sqrt(rest)]])
-        rows[np.abs(rows) < FLAT * np.abs(rows).max(initial=0)] = 0  # The cosine of 90 degrees is not exactly 0.
+        rows[np.abs(rows) < FLAT * np.abs(rows).max(initial=0)] = 0  # cos(90 degrees) is not exactly 0
         return Cell.of(rows, periodic=periodic, is_crystal_of_macromolecule=is_crystal_of_macromolecule)
 
     @functools.cached_property
     def inverse(self) -> Array:
-        """(positions - origin) @ inverse are fractional coordinates, 0 for a missing edge."""
+        """(positions - origin) @ inverse are fractional coordinates. They are 0 along a missing edge."""
         inverse: Array = np.linalg.pinv(self.vectors)
         return inverse
 

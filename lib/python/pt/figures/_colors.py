@@ -22,16 +22,16 @@ Bytes: TypeAlias = npt.NDArray[np.uint8]
 RGB: TypeAlias = tuple[int, ...]
 
 PLAIN: Final = "#96aabe"
-# Okabe and Ito 2008, "Color Universal Design", sorted so that the first two differ most in lightness, too.
+# Okabe and Ito 2008, "Color Universal Design". The first two differ most in lightness, too.
 PALETTE: Final = ((0, 114, 178), (230, 159, 0), (0, 158, 115), (213, 94, 0), (86, 180, 233), (204, 121, 167),
                   (240, 228, 66))
 MOST_CATEGORIES: Final = 1000
-SKEW: Final = 4.0  # full range over the 1% to 99% range; uniform: 1, normal: 2, exponential: 3
+SKEW: Final = 4.0  # full range divided by the 1% to 99% range; uniform: 1, normal: 2, exponential: 3
 
 
 @dataclass(frozen=True)
 class ColorBar:
-    """low, high: numbers with the first and the last color; the norm is wider if they are equal."""
+    """`low` and `high` have the first and the last color. If they are equal, the norm is wider."""
 
     title: str
     low: float
@@ -43,8 +43,6 @@ class ColorBar:
 
 @dataclass(frozen=True)
 class Swatches:
-    """colors: sRGB, shape (k, 3)."""
-
     title: str
     names: tuple[str, ...]
     colors: Bytes
@@ -118,7 +116,7 @@ def components(particles: Particles, name: str) -> list[str]:
 
 
 def _direct(colors: Any, notes: list[str]) -> Bytes:
-    """Floats are in [0, 1]. Unsigned integers reach to their type's largest value, signed ones to 255."""
+    """Floats are in [0, 1]. Unsigned integers reach to the largest value of their type, and signed ones to 255."""
     array = np.asarray(colors)
     if array.dtype.kind == "i" and array.size and 0 <= array.min() and array.max() <= 255:
         array = array.astype(np.uint8)
@@ -235,7 +233,7 @@ def _of_numbers(values: Array, title: str, given: Options, notes: list[str]) -> 
 
 
 def _range(values: Array, given: Options, title: str, notes: list[str]) -> tuple[float, float]:
-    """The range of all finite numbers, or from 1% to 99% of them if a few are far from the rest."""
+    """The range of all finite numbers. If a few are far from the rest, the range from 1% to 99%."""
     least, largest = math.inf, -math.inf
     floor = 0.0 if given.scale == "log" else -math.inf
     for rows in chunks(len(values)):

@@ -55,13 +55,13 @@ def _without_objects(array: Array) -> Array:
 
 
 def plain_name(name: str) -> str:
-    """Removes units in brackets, separators and quotes, and converts to lower case: posx for "Pos_X [m]"."""
+    """Drops units in brackets, separators and quotes, and converts to lower case: posx for "Pos_X [m]"."""
     name = re.sub(r"\s*[\[(](?!\d+[\])])[^\])]*[\])]\s*$", "", name)
     return re.sub(r"[^a-z0-9]", "", name.lower())
 
 
 def column_name(columns: Mapping[str, Array], name: str, data: str) -> str:
-    """Accepts a name in any case or, if columns have no names, a number from 1."""
+    """Accepts a name in any case, or a number from 1 if columns have no names."""
     if name in columns:
         return name
     similar = [each for each in columns if each.lower() == name.lower()]
@@ -81,8 +81,8 @@ def first_of(columns: Mapping[str, Array], names: tuple[str, ...]) -> str | None
 
 
 def coordinate_names(names: list[str]) -> tuple[list[str], bool]:
-    """Returns two, three or no names, and whether the columns are fractional coordinates. Beside x and y, Z is the third
-    coordinate unless there is a z; then Z is the atomic number."""
+    """Returns two, three or no names, and whether the columns are fractional coordinates. Beside x and y, Z is the third coordinate if
+    there is no z, otherwise the atomic number."""
     if all(axis in names for axis in "xyz"):
         return ["x", "y", "z"], False
     by_plain: dict[str, str] = {}

@@ -32,7 +32,7 @@ COVALENT_RADII: Final = np.array((
     2.03, 2.01, 1.99, 1.98, 1.98, 1.96, 1.94, 1.92, 1.92, 1.89, 1.9, 1.87, 1.87, 1.75, 1.7, 1.62, 1.51, 1.44, 1.41,
     1.36, 1.36, 1.32, 1.45, 1.46, 1.48, 1.4, 1.5, 1.5, 2.6, 2.21, 2.15, 2.06, 2, 1.96, 1.9, 1.87, 1.8, 1.69), np.float32)
 
-# Daltons. IUPAC 2016; without a stable isotope, the mass of the longest-lived one.
+# Daltons. IUPAC 2016. Without a stable isotope, the mass of the longest-lived one.
 MASSES: Final = np.array((
     0,
     1.008, 4.0026, 6.94, 9.01218, 10.81, 12.011, 14.007, 15.999, 18.9984, 20.1797, 22.9898, 24.305, 26.9815,
@@ -58,7 +58,7 @@ COLORS: Final = np.frombuffer(bytes.fromhex(
 NUMBERS: Final = {symbol: number for number, symbol in enumerate(SYMBOLS) if number} | {"D": 1, "T": 1}
 _NUMBERS: Final = {symbol.lower(): number for symbol, number in NUMBERS.items()}
 
-# Atom names of the Protein Data Bank and of water models. Beside them CA is a carbon and HG a hydrogen.
+# Atom names of the Protein Data Bank and of water models. If they occur, CA is a carbon and HG a hydrogen.
 _ATOM_NAMES: Final = frozenset("CB CG CZ CM HA HB HT HW OW OT OXT NZ NH".split())
 _IONS: Final = {"NA": 11, "CL": 17, "MG": 12, "ZN": 30, "FE": 26, "MN": 25, "BR": 35, "LI": 3, "SE": 34, "SOD": 11,
                 "CLA": 17, "POT": 19, "CAL": 20}
@@ -70,7 +70,7 @@ def distinct(labels: Array) -> tuple[Array, Array]:
     codes = np.full(len(labels), -1, np.int32)
     values: list[Any] = []
     while (first := int(np.argmin(codes))) < len(labels) and codes[first] < 0:
-        if len(values) == 64:  # Comparing is faster than sorting up to here.
+        if len(values) == 64:  # comparing is faster than sorting up to here
             unique, indices = np.unique(labels, return_inverse=True)
             return unique, indices.astype(np.int32).reshape(-1)
         codes[labels == labels[first]] = len(values)
@@ -79,7 +79,6 @@ def distinct(labels: Array) -> tuple[Array, Array]:
 
 
 def categories(labels: Array) -> tuple[list[str], Array]:
-    """Returns text in ascending order, otherwise like distinct()."""
     values, codes = distinct(labels)
     order = np.argsort(values)
     names = [f"{value:.9g}" if labels.dtype.kind == "f" else str(value) for value in values[order]]
@@ -101,14 +100,15 @@ def _number(label: str, is_atom_name: bool) -> int:
 
 
 def elements_of(labels: Array) -> tuple[Array | None, list[str]]:
-    """Returns atomic numbers, shape (n,), uint8, 0 for unknown, or None if all are unknown; and notes for the user.
+    """Returns atomic numbers, shape (n,), uint8, 0 for unknown, or None if all are unknown. Also returns notes for the user.
 
     labels  shape (n,): symbols in any case, also with digits or charges; PDB atom names; or atomic numbers
+
     """
     values, codes = distinct(labels)
     names = [str(value) for value in values]
     if "A" in names and all(len(name) == 1 for name in names):
-        return None, []  # A and B are kinds of particles, as in Lennard-Jones mixtures.
+        return None, []  # A and B are kinds of particles, as in Lennard-Jones mixtures
     is_atom_name = bool(_ATOM_NAMES.intersection(map(_letters, names)))
     numbers = [_number(name, is_atom_name) for name in names]
     if not any(numbers):
@@ -124,7 +124,7 @@ def elements_of(labels: Array) -> tuple[Array | None, list[str]]:
 
 
 def elements_of_masses(masses: Array) -> npt.NDArray[np.uint8]:
-    """Returns 0 for unknown masses. If most masses (daltons) are 1, all are unknown. United atoms are carbon."""
+    """Returns 0 for unknown masses. If most masses (daltons) are 1, all are unknown. United atoms count as carbon."""
     away = np.abs(masses[:, None] - MASSES)
     away[:, 0] = np.inf
     nearest = away.argmin(axis=1)

@@ -44,12 +44,11 @@ LEGENDS: Final = ("svg", "pdf", "png")
 
 @dataclass(frozen=True)
 class Drawn:
-    """Particles as balls in scene units. These are the data's units, times a power of two if lengths are far from 1.
+    """Particles as balls in scene units. Scene units are the data's units, times a power of two if lengths are far from 1.
 
-    colors     shape (n, 3), or (3,) for one color
-    scale      scene units per unit of the data
-    settled    options with the values that follow from the data, in its units
-    opacities  shape (n,); None if all are opaque
+    colors shape (n, 3), or (3,) for one color scale scene units per unit of the data settled options with the values that follow from
+    the data, in its units opacities shape (n,); None if all are opaque
+
     """
 
     centers: Array
@@ -85,7 +84,7 @@ class Drawn:
 
 
 def prepare(particles: Particles, options: Options, scale: float | None = None, past: Sequence[Particles] = ()) -> Drawn:
-    """Hidden particles count for radii, color ranges and categories, too. past: earlier frames, for trails."""
+    """Hidden particles count for radii, color ranges and categories, too. `past` has earlier frames, for trails."""
     notes = list(particles.notes)
     if not len(particles.positions):
         raise ValueError(f"{particles.name} has no particles")

@@ -13,8 +13,8 @@ from pt.figures._options import Direction
 from pt.figures._stage import FLOOR, FLOOR_GAP, Stage, make_stage
 from pt.figures._view import Compass, relative_height, toward_camera, up_vector, view_axes
 
-VERTICAL_FOV: Final = 20.0 * math.pi / 180.0  # Wide angles would distort balls at the sides.
-MARGIN: Final = 0.03  # fraction of the picture that stays free at each side; by taste
+VERTICAL_FOV: Final = 20.0 * math.pi / 180.0  # wide angles would distort balls at the sides
+MARGIN: Final = 0.03  # free fraction of the picture at each side; by taste
 PIXELS: Final = 1024.0 * 768.0
 MOST_ASPECT: Final = 2.0
 
@@ -50,7 +50,7 @@ class View:
     @staticmethod
     def of(balls: Balls, view: Direction, up: Direction, projection: str, size: tuple[int, int] | None,
            turns: bool = False) -> View:
-        """turns: whether a turntable's whole turn must be in view."""
+        """`turns` keeps a turntable's whole turn in view."""
         compass = Compass.of(up_vector(up))
         height = 0.0
         if view == "three-quarter":
@@ -81,7 +81,7 @@ class View:
 
 
 def _shape(extents: Doubles) -> tuple[int, int]:
-    """Multiples of 8 with about PIXELS in all. Their ratio follows the extents, up to MOST_ASPECT."""
+    """Multiples of 8 with about PIXELS together. Their ratio follows the extents, up to MOST_ASPECT."""
     aspect = min(max(float(extents[0] / extents[1]), 1.0 / MOST_ASPECT), MOST_ASPECT)
     sides = [8 * math.floor(side / 8.0 + 0.5) for side in (math.sqrt(PIXELS * aspect), math.sqrt(PIXELS / aspect))]
     return sides[0], sides[1]
@@ -89,7 +89,7 @@ def _shape(extents: Doubles) -> tuple[int, int]:
 
 @dataclass(frozen=True)
 class Layout:
-    """distance: from the camera to the middle of the contents along the view; from within, half of their extent."""
+    """`distance` goes from the camera to the middle of the contents along the view. Inside the contents, it is half of their extent."""
 
     size: tuple[int, int]
     axes: Doubles

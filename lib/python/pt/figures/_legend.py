@@ -23,7 +23,7 @@ def _plain(text: str) -> str:
 
 
 def draw(legend: Legend, height: float, font: float, ink: Any) -> Any:
-    """height: inches, of a color bar, and the most of a column of swatches. font: points."""
+    """`height`, in inches, belongs to a color bar, and limits a column of swatches. `font` is in points."""
     if legend is None:
         raise ValueError("legend: there is nothing to tell, as all colors are given or alike")
     with _matplotlib().rc_context({"font.size": font, "text.color": ink, "axes.labelcolor": ink, "axes.edgecolor": ink,
@@ -63,7 +63,7 @@ def save(legend: Legend, file: Any, format: str) -> None:
 
 
 def raster(legend: Legend, height: int, ink: Any) -> npt.NDArray[np.float64]:
-    """At most as high as the picture, if the text allows."""
+    """No higher than the picture, if the text allows."""
     font = max(9.0, 0.02 * height * POINTS_PER_INCH / PIXELS_PER_INCH)
     buffer = io.BytesIO()
     draw(legend, 0.62 * height / PIXELS_PER_INCH, font, ink).savefig(

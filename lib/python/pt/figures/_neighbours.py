@@ -13,16 +13,16 @@ Array = npt.NDArray[Any]
 MOST_COMPARED: Final = 400_000_000  # pairs, which take about a minute
 MOST_FOUND: Final = 20_000_000
 COMPARED_AT_ONCE: Final = 1 << 21
-SLACK: Final = 1.0 + 2.0**-30  # Rounding must not move a neighbour two cells away.
+SLACK: Final = 1.0 + 2.0**-30  # rounding must not move a neighbour two cells away
 AHEAD: Final = ((0, 1), (1, -1), (1, 0), (1, 1))  # neighbouring rows in a grid, without their opposites
 
 
 class Pairs(NamedTuple):
-    """Pairs of different particles or images, each once.
+    """Pairs of different particles or images. Each pair occurs once.
 
-    first, second  shape (k,): indices
-    images         shape (k, 3), int: edges by which the second particle is moved
-    squares        shape (k,): squared distances
+    first, second shape (k,): indices images shape (k, 3), int: edges by which the second particle is moved squares shape (k,): squared
+    distances
+
     """
 
     first: Array
@@ -32,7 +32,7 @@ class Pairs(NamedTuple):
 
 
 def pairs_within(positions: Array, cutoff: float, cell: Cell | None, radii: Array | None = None, slack: float = 0.0) -> Pairs:
-    """Pairs at most `cutoff` apart; with radii, at most the sum of both plus `slack`. Raises ValueError for too many."""
+    """Pairs at most `cutoff` apart. With radii, at most their sum plus `slack`. Raises ValueError for too many."""
     positions = positions.astype(np.float64)
     sources, shifts = _images(positions, cell, cutoff)
     places = positions[sources] if cell is None else positions[sources] + shifts @ cell.vectors
@@ -59,14 +59,14 @@ def pairs_within(positions: Array, cutoff: float, cell: Cell | None, radii: Arra
 
 
 def _is_first(first: Array, second: Array, steps: Array) -> Array:
-    """A pair has a reverse with opposite steps. Exactly one of the two is first."""
+    """Each pair also occurs reversed, with opposite steps. Exactly one of the two is first."""
     ahead = np.sign(steps) @ (9, 3, 1)
     result: Array = (first < second) | ((first == second) & (ahead > 0))
     return result
 
 
 def _images(positions: Array, cell: Cell | None, cutoff: float) -> tuple[Array, Array]:
-    """Returns indices and shifts in edges: of the particles in the cell, then of their images within the cutoff."""
+    """Returns indices, and shifts in edges, of the particles in the cell, then of their images within the cutoff."""
     sources = np.arange(len(positions))
     if cell is None:
         return sources, np.zeros((len(positions), 3))
@@ -89,7 +89,7 @@ def _images(positions: Array, cell: Cell | None, cutoff: float) -> tuple[Array, 
 
 def _candidates(places: Array, cutoff: float) -> Iterator[tuple[Array, Array]]:
     low = places.min(axis=0)
-    side = max(cutoff * SLACK, float((places.max(axis=0) - low).max()) * 2.0**-20)  # Keys must fit into 64 bits.
+    side = max(cutoff * SLACK, float((places.max(axis=0) - low).max()) * 2.0**-20)  # keys must fit into 64 bits
     cells = np.floor((places - low) / side).astype(np.int64) + 1
     _, columns, layers = cells.max(axis=0) + 2
     keys = (cells[:, 0] * columns + cells[:, 1]) * layers + cells[:, 2]

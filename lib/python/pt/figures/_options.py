@@ -28,8 +28,8 @@ MOST_SAMPLES: Final = 65536
 
 
 def _option(group: str, default: Any, metavar: str, words: str, **more: Any) -> Any:
-    """more: choices; rule, a condition on the value with its words; flag, the name on the command line; read, which
-    converts text to the value."""
+    """`more` may have choices, rule (a condition on the value with its words), flag (the name on the command line), and read (converts text
+    to the value)."""
     return field(default=default, metadata={"group": group, "metavar": metavar, "words": words, **more})
 
 
@@ -164,7 +164,7 @@ class Options:
 
     @property
     def bond_rule(self) -> Bonds:
-        """None: no bonds are drawn. Models with sticks always have bonds."""
+        """None if no bonds are drawn. Models with sticks always have bonds."""
         given = not (self.bonds is None or self.bonds is False)
         return self.bonds if given else "auto" if self.drawn_model != "space-filling" else None
 

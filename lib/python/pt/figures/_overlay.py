@@ -13,9 +13,9 @@ from pt._enums import Format, Quantity
 from pt._fit import Array, Doubles
 
 PER_SIDE: Final = 4
-MOST_PER_SIDE: Final = 32  # The standard deviation of random coverage is then 0.016.
+MOST_PER_SIDE: Final = 32  # random coverage then has a standard deviation of 0.016
 MOST_RAYS: Final = 2**32 - 1
-BAND_ROWS: Final = 32  # The hits of these rows take less device memory than the picture.
+BAND_ROWS: Final = 32  # rows whose hits take less device memory than the picture
 LEAST_STEP: Final = 0.1
 LEAST_RADIUS: Final = 2.5
 
@@ -28,8 +28,8 @@ class Shares:
 
 @dataclass(frozen=True)
 class Overlaid:
-    """first: index of the first particle among all spheres and capsules. count: particles, bonds, vectors and edges of the
-    cell, in this order. radii: shape (n,), without edges, which have no outlines."""
+    """The shapes are `count` particles, then bonds, vectors and edges of the cell. `first` is the index of the first particle among all
+    spheres and capsules. `radii`, shape (n,), leave out edges, which have no outlines."""
 
     first: int
     count: int
@@ -38,7 +38,7 @@ class Overlaid:
 
 
 def line_width(size: tuple[int, int]) -> float:
-    """Pixels: 0.0016 of the picture's longer side, at least one."""
+    """0.0016 of the picture's longer side, at least one pixel."""
     return max(1.0, 0.0016 * max(size))
 
 
@@ -50,7 +50,7 @@ def rays_per_side(samples: float, pixels: int) -> int:
 
 def read_shares(context: Context, camera: Camera, settings: RenderSettings, overlaid: Overlaid, per_side: int = PER_SIDE
                 ) -> Shares:
-    """Replaces the context's render settings. Outlines take PER_SIDE rays."""
+    """Replaces the render settings of the context. Outlines take PER_SIDE rays."""
     width, height = settings.width, settings.height
     shares = Shares(np.zeros((height, width)), np.zeros((height, width)))
     margin = math.ceil(0.5 * line_width((width, height))) + 1 if overlaid.outlines else 0
@@ -94,7 +94,7 @@ def pixels_per_length(camera: Camera, height: int, depths: Any) -> Any:
 
 
 def _outlines(index: Array, depths: Array, overlaid: Overlaid, pixels: Any, width: float) -> Array:
-    """A ball has an outline against other shapes, and against balls that are farther by a tenth of its radius."""
+    """A ball has an outline if another shape, or a ball that is farther by a tenth of its radius, is behind it."""
     has_outline, is_shape = index < len(overlaid.radii), index < overlaid.count
     radii = overlaid.radii[np.where(has_outline, index, 0) if overlaid.radii.strides[0] else np.zeros_like(index)]
     large = has_outline & (radii * pixels >= LEAST_RADIUS * width)

@@ -37,7 +37,7 @@ class Bonds:
         return Bonds(rows, images, is_complete)
 
     def among(self, rows: Array, count: int) -> Bonds:
-        """rows: old indices in the new order. count: number of all particles."""
+        """`rows` are old indices in the new order. `count` is the number of all particles."""
         new = np.full(count, -1, np.intp)
         new[rows] = np.arange(len(rows))
         pairs = new[self.pairs]
@@ -78,7 +78,7 @@ class Particles:
         return self.columns[column_name(self.columns, name, self.name)]
 
     def select(self, mask: Array) -> Particles:
-        """Selects by a mask, a slice or indices, in their order. A mask of all particles copies nothing."""
+        """Takes a mask, a slice or indices, in their order. A mask of all particles copies nothing."""
         if mask.dtype == bool and mask.all():
             return self
         chosen = {key: None if value is None else value[mask] for key, value in

@@ -20,8 +20,8 @@ MOST_PAIRS: Final = 4_000_000
 TABLE_BITS: Final = 20
 COVER: Final = 0.01  # least fraction of the picture that balls of unknown radii cover; by taste
 THIN: Final = 0.001  # least radius of these balls, relative to the picture's side
-SLACK: Final = 0.225  # angstroms: half of the largest excess of bonds over covalent radii
-MOST_FACTOR: Final = 3.0  # largest factor of covalent radii, because dilute gases must stay apart; by taste
+SLACK: Final = 0.225  # angstroms: half of the most by which bonds exceed covalent radii
+MOST_FACTOR: Final = 3.0  # largest factor of covalent radii, so that balls of dilute gases stay apart; by taste
 STEPS: Final = np.indices((3, 3, 3)).reshape(3, 1, 27) - 1
 
 
@@ -116,15 +116,15 @@ def _automatic(particles: Particles, notes: list[str]) -> Array:
 
 
 def covalent_factor(particles: Particles) -> float | None:
-    """The factor is 1 for bonded neighbours, more for noble gases and C-alphas. None if distances are not in angstroms, or
-    there are no elements."""
+    """The factor is 1 for bonded neighbours, and more for noble gases and C-alphas. None without elements, or if distances are not in
+    angstroms."""
     if particles.elements is None:
         return None
     radii = elements.COVALENT_RADII[np.unique(particles.elements)]
     radii = radii[radii > 0]
     typical = typical_radius(particles.positions)
-    # In covalent radii, neighbours are 2 apart if they are bonded, up to 6 in other solids, and 32 in a gas at 0 degrees
-    # Celsius and 1 bar.
+    # Bonded neighbours are 2 covalent radii apart, others in solids up to 6. Particles of a gas at 0 degrees Celsius and 1 bar are 32
+    # apart.
     if not len(radii) or not 0.7 * radii.min() <= typical <= 30.0 * radii.max():
         return None
     largest = float(radii.max())
@@ -173,8 +173,8 @@ def _of_types(particles: Particles, radii: Mapping[str, float]) -> Array:
 
 
 def typical_radius(positions: Array) -> float:
-    """Half of the distance between most nearest neighbours, so that most balls just touch. Random points get half
-    of the median distance to the fourth neighbour. Coinciding neighbours do not count."""
+    """Half of the distance between most nearest neighbours, so most balls just touch. For random points, half of the median distance to the
+    fourth neighbour. Neighbours at the same place do not count."""
     first, fourth = _neighbour_distances(positions)
     if not len(first):
         return 1.0
@@ -187,7 +187,7 @@ def typical_radius(positions: Array) -> float:
 
 
 def _neighbour_distances(positions: Array) -> tuple[Array, Array]:
-    """Looks only into adjacent cells of a grid."""
+    """Only adjacent cells of a grid are searched."""
     count = len(positions)
     fourth = min(4, max(count // 3, 1)) - 1
     low, high = (np.array([end(column) for column in positions.T], np.float64) for end in (np.min, np.max))
@@ -200,7 +200,7 @@ def _neighbour_distances(positions: Array) -> tuple[Array, Array]:
     if count <= 27 * IN_CELL:
         side = 2.0 * float(extent.max())
     sample = positions[::max(count // 50_000, 1)]
-    for _ in range(8):  # The box of a cluster is nearly empty, so cells must shrink.
+    for _ in range(8):  # a cluster's box is nearly empty, so cells must shrink
         _, begin, end = _near(sample, places, low, side)
         crowd = float(np.median((end - begin).sum(axis=1))) * count / len(sample)
         if crowd <= 64 * IN_CELL:
@@ -212,7 +212,7 @@ def _neighbour_distances(positions: Array) -> tuple[Array, Array]:
     for place, *cells in zip(places, begin.tolist(), end.tolist()):
         others = np.concatenate([near[first:last] for first, last in zip(*cells) if first < last])
         distances = np.linalg.norm(others - place, axis=1)
-        # A nearer neighbour may lie outside these cells if the distance exceeds a cell's side.
+        # If the distance exceeds the side of a cell, a nearer neighbour may lie outside these cells.
         found.append(np.sort(distances[(distances > 0.0) & (distances <= side)]))
         pairs += len(others)
         if pairs > MOST_PAIRS:
@@ -222,8 +222,8 @@ def _neighbour_distances(positions: Array) -> tuple[Array, Array]:
 
 
 def _near(positions: Array, places: Doubles, low: Doubles, side: float) -> tuple[Doubles, Array, Array]:
-    """Returns the positions in and around the cells of `places`, ordered by cell. Also returns, for each place, where
-    its 27 cells begin and end."""
+    """Returns the positions in and around the cells of `places`, ordered by cell. For each place, also returns where its 27 cells begin and
+    end."""
     keys = _keys(_cells(places, low, side)[:, :, None] + STEPS)
     wanted = np.zeros(1 << TABLE_BITS, bool)
     wanted[keys] = True
@@ -245,8 +245,8 @@ def _cells(positions: Array, low: Doubles, side: float) -> Array:
 
 
 def _keys(cells: Array) -> Array:
-    """Teschner et al. 2003, "Optimized Spatial Hashing for Collision Detection of Deformable Objects". Collisions are
-    harmless, because distances decide."""
+    """Teschner et al. 2003, "Optimized Spatial Hashing for Collision Detection of Deformable Objects". Collisions are harmless, because
+    distances decide."""
     hashed = cells[0] * 73856093 ^ cells[1] * 19349663 ^ cells[2] * 83492791
     keys: Array = (hashed ^ hashed >> TABLE_BITS) & (1 << TABLE_BITS) - 1
     return keys

@@ -28,7 +28,7 @@ _IONS: Final = {**{symbol: _NUMBERS[symbol] for symbol in (
     "LI NA K RB CS MG CA SR BA ZN FE MN CU NI CO CD HG AG AU AL PB TL CR V Y LA CE EU GD TB YB LU PT F CL BR I").split()},
     "SOD": 11, "CLA": 17, "POT": 19, "CAL": 20, "CES": 55, "RUB": 37, "LIT": 3, "BAR": 56, "IOD": 53, "CIO": 55, "CIM": 17,
     "CIP": 11, "IB": 35}
-_CHARGED: Final = frozenset(("ION", "IONS", "IB"))  # residues in GROMACS with ions of several kinds
+_CHARGED: Final = frozenset(("ION", "IONS", "IB"))  # GROMACS residues with several kinds of ions
 _TWO_LETTERS: Final = frozenset("CL BR FE ZN MG MN CU SI SE LI AL AG AU PT RU RH IR TI ZR MO AS".split())
 _ONE_LETTER: Final = frozenset("HCNOPSFBID")
 _POLYMERS: Final = frozenset("HCNOPSD")
@@ -67,7 +67,7 @@ def is_free_ion(residue: str) -> bool:
 
 
 def is_polymer(residue: str) -> bool:
-    """AMBER marks the ends of chains with N or C."""
+    """N or C at the ends of chains is a mark of AMBER."""
     return residue in AMINO_ACIDS or residue in NUCLEOTIDES or (
         len(residue) == 4 and residue[0] in "NC" and residue[1:] in AMINO_ACIDS)
 
@@ -77,7 +77,6 @@ def autodock_element(kind: str) -> int:
 
 
 def are_beads(names: Array, residues: Array) -> bool:
-    """A MARTINI bead stands for several atoms."""
     found = set(np.unique(names).tolist())
     if "GL1" in found and "PO4" in found:
         return True

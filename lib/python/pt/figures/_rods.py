@@ -19,12 +19,11 @@ WIDTH: Final = 0.3
 
 @dataclass(frozen=True)
 class Rods:
-    """k capsules. Each has the color of a particle.
+    """k capsules, each with the color of a particle.
 
-    atoms    shape (k,): indices of these particles
-    others   shape (k,): second particles, which must also be shown
-    ways     shape (k, 3): from one end to the other
-    starts   shape (k, 3): from the particle's center to the first end; None: 0
+    atoms shape (k,): indices of these particles others shape (k,): second particles, which must also be shown ways shape (k, 3): from
+    one end to the other starts shape (k, 3): from the particle's center to the first end; None: 0
+
     """
 
     atoms: Array
@@ -73,7 +72,7 @@ def cell_corners(cell: Cell) -> Doubles:
 
 
 def cell_edges(cell: Cell) -> Doubles:
-    """Shape (2, 12, 3): both ends. A flat cell has four edges."""
+    """Both ends, shape (2, 12, 3). A flat cell has four edges."""
     corners = cell_corners(cell)
     steps = [1 << edge for edge in range(len(corners).bit_length() - 1)]
     pairs = [(k, k | step) for k in range(len(corners)) for step in steps if not k & step]

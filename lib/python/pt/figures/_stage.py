@@ -7,8 +7,8 @@ from typing import Final
 from pt._fit import Doubles
 from pt._scene import Material, Plane, Sphere
 
-# The radiance of a surface that faces the key lamp, in full view of the surround, is its albedo: the legend's color.
-SURROUND_BRIGHTNESS: Final = 0.4375  # has few bits, so that means are exact
+# A surface that faces the key lamp, in full view of the surround, has its albedo as the radiance, as in the legend.
+SURROUND_BRIGHTNESS: Final = 0.4375  # few bits, so means are exact
 KEY_BRIGHTNESS: Final = 0.75
 KEY_HALF_ANGLE: Final = math.radians(14.0)
 KEY_AZIMUTH: Final = math.radians(-35.0)
@@ -20,7 +20,7 @@ FLOOR_GAP: Final = 1e-4  # relative to the radius; a smaller gap could vanish by
 
 @dataclass(frozen=True)
 class Stage:
-    """lamps: an evenly shining sphere around everything, and a large lamp behind the camera's left shoulder (key)."""
+    """The lamps are an evenly shining sphere around everything, and a large lamp (key) behind the camera's left shoulder."""
 
     lamps: tuple[Sphere, ...]
     floor: Plane | None
@@ -33,9 +33,9 @@ def material_of(style: str) -> Material:
 
 
 def make_stage(style: str, axes: Doubles, distance: float, center: Doubles, radius: float, floor: Plane | None) -> Stage:
-    """axes: right, up, forward. distance: from camera to middle. center, radius: a ball around everything."""
+    """`axes` are right, up, forward. `distance` goes from camera to middle. `center` and `radius` give a ball around everything."""
     material = material_of(style)
-    # The key lamp is farther than the camera, so its light is nearly as strong at the far end of the data.
+    # The key lamp is farther than the camera, so its light hardly falls off over the data.
     far = max(20.0 * radius, 4.0 * distance)
     occlusion = style == "ambient-occlusion"
     surround = Sphere(center, 10.0 * far, Material(emission=1.0 if occlusion else SURROUND_BRIGHTNESS))
@@ -44,7 +44,7 @@ def make_stage(style: str, axes: Doubles, distance: float, center: Doubles, radi
     level = math.cos(KEY_ELEVATION)
     direction = (level * math.sin(KEY_AZIMUTH) * axes[0] - level * math.cos(KEY_AZIMUTH) * axes[2] +
                  math.sin(KEY_ELEVATION) * axes[1])
-    # A lamp of radiance L and half angle a gives a facing white surface the radiance L sin^2(a) (Lambert).
+    # A lamp of radiance L and half angle a gives a white surface that faces it the radiance L sin^2(a) (Lambert).
     sine = math.sin(KEY_HALF_ANGLE)
     key = Sphere(center + far * direction, far * sine, Material(emission=KEY_BRIGHTNESS / (sine * sine)))
     return Stage((surround, key), floor, material)

@@ -9,8 +9,7 @@ import numpy as np
 from pt._fit import Doubles
 from pt.figures._options import VIEWS, Direction
 
-# The three-quarter view, by taste: neither an edge of a box nor its diagonal lies along the line of sight. Flat data are
-# seen from higher up.
+# The three-quarter view, by taste. Neither an edge of a box nor its diagonal is along the line of sight. Flat data are seen from higher up.
 AZIMUTH: Final = 30.0
 ELEVATION_OF_BODIES: Final = 22.0
 ELEVATION_OF_DISCS: Final = 50.0
@@ -18,7 +17,7 @@ BODY: Final = 0.5
 
 
 def unit(vector: Doubles) -> Doubles:
-    """Scales by the largest component first, because squares could overflow."""
+    """First divides by the largest component, because squares could overflow."""
     scaled = vector / np.abs(vector).max()
     result: Doubles = scaled * (1.0 / math.sqrt(scaled[0] * scaled[0] + scaled[1] * scaled[1] + scaled[2] * scaled[2]))
     return result
@@ -44,8 +43,7 @@ def up_vector(up: Direction) -> Doubles:
 
 @dataclass(frozen=True)
 class Compass:
-    """Right is x, or y if up is nearest to x. Front is right x up: -y if z is up, z if y is up, as in simulations and
-    for molecules."""
+    """Right is x, or y if up is nearest to x. Front is right x up: -y if z is up, and z if y is up, as in simulations and for molecules."""
 
     right: Doubles
     front: Doubles
@@ -59,14 +57,14 @@ class Compass:
 
 
 def relative_height(extents: Doubles) -> float:
-    """The size of data along up, relative to their size across it: 0 for a layer, 1 for a cube. extents: of the centers
-    along right, front and up."""
+    """The size of data along up, relative to the size across: 0 for a layer, 1 for a cube. `extents` of the centers go along right, front
+    and up."""
     across = math.hypot(extents[0], extents[1])
     return float(extents[2] / (across / math.sqrt(2.0))) if across > 0.0 else 1.0
 
 
 def toward_camera(view: Direction, compass: Compass, height: float) -> Doubles:
-    """height: result of relative_height() for the three-quarter view."""
+    """`height` is the result of relative_height(). Only the three-quarter view uses it."""
     if view == "three-quarter":
         if height == 0.0:
             return compass.up
@@ -84,7 +82,7 @@ def toward_camera(view: Direction, compass: Compass, height: float) -> Doubles:
 
 
 def view_axes(toward: Doubles, compass: Compass) -> Doubles:
-    """Rows are right, up and forward; right x up = -forward. Views along up take right from the compass."""
+    """Rows are right, up and forward, with right x up = -forward. If the view is along up, the compass gives right."""
     forward = -toward
     across = np.cross(forward, compass.up)
     right = compass.right if np.linalg.norm(across) < 1e-6 else unit(across)

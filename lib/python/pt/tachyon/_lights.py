@@ -11,9 +11,9 @@ from pt._vectors import Triple
 FloatArray = npt.NDArray[np.float64]
 
 DEFAULT_RADIUS = 1 / 50  # radius of a light without one, relative to its distance
-LEAST_RADIUS = 1e-6  # relative to the extent; a light with a smaller lamp counts as a light on a surface
+LEAST_RADIUS = 1e-6  # relative to the extent: a smaller lamp would be of a light on a surface
 SUN_DISTANCE = 100.0
-LEAST_SHARE = 1 / 3  # A bright background dims lights at most to this fraction; by taste.
+LEAST_SHARE = 1 / 3  # a bright background dims lights at most to this fraction; by taste
 
 
 @dataclass(frozen=True)
@@ -26,13 +26,13 @@ class Light:
     place: Triple  # position, or the direction towards a directional light
     is_directional: bool = False
     attenuation: Triple = (1.0, 0.0, 0.0)
-    radius: float = 0.0  # radius of the visible ball; 0 without one
+    radius: float = 0.0  # of the visible ball; 0 without one
 
 
 @dataclass(frozen=True)
 class Surroundings:
     centers: FloatArray
-    ends: FloatArray  # (n, 3); equal to centers for spheres
+    ends: FloatArray  # (n, 3); spheres have their centers here
     radii: FloatArray
     planes: list[Plane]
     camera: FloatArray
@@ -49,7 +49,7 @@ class Surroundings:
         return float(min(gaps, default=np.inf))
 
     def extent(self, lights: list[Light]) -> float:
-        """The largest distance from the target to anything except planes. It is above 0."""
+        """The largest distance from the target to anything but planes, above 0."""
         reach = np.linalg.norm(np.array([self.centers, self.ends]) - self.target, axis=2).max(axis=0) + self.radii
         places = [np.array(light.place) for light in lights if not light.is_directional] + [self.camera]
         return float(max([float(np.linalg.norm(place - self.target)) for place in places] + reach.tolist()))
@@ -57,8 +57,8 @@ class Surroundings:
 
 def view_target(centers: FloatArray, radii: FloatArray, planes: list[Plane], position: Triple,
                 direction: Triple) -> FloatArray:
-    """The point on the viewing ray nearest to the middle of the spheres' bounding box. Without spheres ahead, the hit on
-    the nearest plane; else the point at distance 1."""
+    """The point on the viewing ray nearest to the middle of the spheres' bounding box. Without spheres ahead, the nearest plane's point on
+    the ray, or the point at distance 1."""
     start = np.array(position)
     way = np.array(direction) / np.linalg.norm(direction)
     distance = 0.0
@@ -75,7 +75,7 @@ def view_target(centers: FloatArray, radii: FloatArray, planes: list[Plane], pos
 
 
 def dimmed(lights: list[Light], background: Triple) -> list[Light]:
-    """Dims the lights, because the background of pt, unlike Tachyon's, gives light."""
+    """Unlike Tachyon's, the background of pt gives light, so lights are dimmed."""
     together = max(map(sum, zip(*(light.color for light in lights))), default=0.0)
     share = max(1.0 - max(background) / together, LEAST_SHARE) if together else 1.0
     return [replace(light, color=(share * light.color[0], share * light.color[1], share * light.color[2]))
@@ -101,7 +101,7 @@ def lamps_of(lights: list[Light], around: Surroundings) -> tuple[list[Sphere], l
         else:
             center = np.array(light.place)
             distance = float(np.linalg.norm(center - around.target))
-            if distance <= LEAST_RADIUS * extent:  # The light is at the target. Its distance to the camera replaces 0.
+            if distance <= LEAST_RADIUS * extent:  # The light is at the target, so its distance from the camera replaces 0.
                 distance = float(np.linalg.norm(center - around.camera))
         room = around.clearance(center)
         if light.radius > 0.0:

@@ -25,16 +25,16 @@ OTHERS = {
     "START_CLIPGROUP": "a cut through shapes", "INCLUDE": "another file"}
 SECTIONS = ("CAMERA", "BACKGROUND", "FOG", "LIGHT", "DIRECTIONAL_LIGHT", "TEXDEF", "TEXALIAS", "SPHERE", "FCYLINDER",
             "POLYCYLINDER", "PLANE", "SHADER_MODE", "END_SCENE")
-SKY_RADIUS = 1e6  # relative to the extent; the edge of a floor is then less than a pixel below the horizon
+SKY_RADIUS = 1e6  # relative to the extent; a floor then ends less than a pixel below the horizon
 
 
 @dataclass
 class TachyonScene:
-    """The contents of a file. Each light is a lamp, the background a ball around everything.
+    """The contents of a file. Lights are lamps, and the background is a ball around everything.
 
-    scene      one SphereArray of spheres and one of cylinders, each in the order of the file
-    settings   the file's resolution, otherwise defaults
-    notes      what was left out, with line numbers
+    scene one SphereArray of spheres and one of cylinders, each in the order of the file settings the file's resolution, otherwise
+    defaults notes what was left out, with line numbers
+
     """
 
     scene: Scene
@@ -180,7 +180,7 @@ class _Reader:
             self.left_out["FOG"] = f"{place}: FOG: it is left out, far surfaces have their full colors"
 
     def ring(self) -> None:
-        """Leaves out a ring that closes an end of the preceding cylinder, as VMD writes it."""
+        """Leaves out a ring that closes the preceding cylinder, as VMD writes it."""
         words = self.words
         center, _ = words.vector("CENTER"), words.direction("NORMAL")
         inner, outer = words.named("INNER"), words.named("OUTER")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pt._scene import Material
 from pt.tachyon._words import Words
 
-MIRROR_GLOSSINESS = 1e6  # Tachyon's mirrors are perfect. This lobe is narrower than most pixels.
+MIRROR_GLOSSINESS = 1e6  # Tachyon's mirrors are perfect; this lobe is narrower than most pixels
 # Arguments of TEXFUNC's patterns 0 to 10: whether there is a file name, and the names of vectors.
 PLACE = ("CENTER", "ROTATE", "SCALE")
 PATTERNS: tuple[tuple[bool, tuple[str, ...]], ...] = (
@@ -18,7 +18,7 @@ class Textures:
         self._words = words
         self._left_out = left_out
         self._named: dict[str, int] = {}
-        self._indices: dict[Material, int] = {}  # Equal textures become one material.
+        self._indices: dict[Material, int] = {}  # Equal textures share a material.
         self.materials: list[Material] = []
 
     def define(self) -> None:
@@ -43,7 +43,7 @@ class Textures:
 
     def _body(self) -> int:
         words = self._words
-        words.named("AMBIENT", least=0.0)  # Indirect light replaces it.
+        words.named("AMBIENT", least=0.0)  # indirect light replaces AMBIENT
         diffuse = words.named("DIFFUSE", least=0.0)
         mirror = words.named("SPECULAR", least=0.0)
         if words.named("OPACITY", least=0.0) < 1.0:
@@ -64,7 +64,7 @@ class Textures:
         self._skip_pattern()
         if mirror > 0.0:
             specular, exponent = (mirror, mirror, mirror), MIRROR_GLOSSINESS
-        else:  # The lobe's peak is (n + 2) / 2 times its weight. In Tachyon the peak is the highlight.
+        else:  # the peak is (n + 2) / 2 times the lobe's weight; Tachyon states the peak
             weight = 2.0 * highlight / (exponent + 2.0)
             red, green, blue = color if is_metal else (1.0, 1.0, 1.0)
             specular = (weight * red, weight * green, weight * blue)

@@ -91,7 +91,7 @@ class Words:
         return self.point(keyword)
 
     def point(self, what: str) -> Triple:
-        """Flips z, because Tachyon's world is left-handed."""
+        """Tachyon's world is left-handed, so z changes its sign."""
         return self.number(what), self.number(what), -self.number(what)
 
     def direction(self, keyword: str) -> Triple:

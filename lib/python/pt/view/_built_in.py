@@ -14,8 +14,8 @@ from pt._enums import Light
 from pt._errors import Error
 from pt._scene import Scene
 
-SHARE: Final = 0.05  # seconds over those of the edited kernel's picture
-FIRST_LOOK: Final = 16  # samples
+SHARE: Final = 0.05  # the library's kernel gets this fraction of the edited kernel's time
+FIRST_LOOK: Final = 16  # samples of the first comparison
 MIN_CHANGE: Final = 0.01
 
 
@@ -34,7 +34,7 @@ class BuiltIn:
         self.verdict = ""
 
     def begin(self, scene: Scene, camera: Camera, settings: RenderSettings) -> None:
-        """Starts the test of a kernel. Samples of the same picture stay."""
+        """Samples stay if the picture stays."""
         self._owed, self._looks, self._looked_at, self._differs, self.verdict = 0.0, 0, 0, False, ""
         try:
             if self._context is None:
@@ -55,8 +55,8 @@ class BuiltIn:
         return self._context is not None and self._count < count
 
     def step(self, edited: Context, count: int, seconds: float, stops: Callable[[float], bool]) -> bool:
-        """Takes samples for SHARE of the edited kernel's seconds, up to its number. Compares whenever both
-        have twice as many samples, or at last equally many, and returns whether it did."""
+        """Takes samples for SHARE of the edited kernel's seconds, up to its number. Compares when both have twice as many samples as
+        before, or finally equally many. Returns whether it compared."""
         if self._context is None:
             return False
         self._owed += SHARE * seconds
@@ -90,7 +90,7 @@ class BuiltIn:
             self._cost = elapsed / taken
 
     def _take(self, found: Comparison) -> None:
-        """A difference stays found, since all looks together have the rate."""
+        """A difference that was once found stays, because the rate is for all comparisons together."""
         self._differs = self._differs or found.light == Light.DIFFERENT
         if found.light == Light.DIFFERENT or not self._differs:
             self.verdict = verdict_of(found)

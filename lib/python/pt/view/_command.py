@@ -59,7 +59,7 @@ def kernels() -> pathlib.Path | None:
 
 
 def is_of_another(path: pathlib.Path) -> bool:
-    """Whether a folder or the link to it belongs to another user, who could replace the contents."""
+    """Whether a folder, or the link to the folder, belongs to another user, who could replace the contents."""
     return hasattr(os, "geteuid") and any(status.st_uid != os.geteuid() for status in (path.lstat(), path.stat()))
 
 
@@ -85,7 +85,7 @@ def user_cache() -> pathlib.Path:
 
 
 def open_browser(address: str) -> IO[str]:
-    """Opens a file that only the user can read, because all users see the arguments of a process."""
+    """The file is readable for its user alone, because all users see the arguments of a process."""
     user_cache().mkdir(parents=True, exist_ok=True)
     file = tempfile.NamedTemporaryFile("w", suffix=".html", dir=user_cache())
     file.write(f'<meta http-equiv="refresh" content="0; url={address}">')

@@ -15,13 +15,13 @@ from pt._stats import ErrorEstimate
 
 LAYERS: Final = {"mean": Quantity.RADIANCE, "standard error": Quantity.STANDARD_ERROR, "samples": Quantity.SAMPLE_COUNT,
                  "depth": Quantity.DEPTH, "normal": Quantity.NORMAL, "albedo": Quantity.ALBEDO}
-OF_SAMPLES: Final = 3  # number of layers of samples, which come first; the rest show first hits of camera rays
+OF_SAMPLES: Final = 3  # number of layers of samples; the layers after these show first hits of camera rays
 METHODS: Final[dict[str, Any]] = {"sampler": Sampler, "estimator": Estimator}
 
 
 @dataclass(frozen=True)
 class Frame:
-    """pixels: the selected layer, height x width x 3. values: layers of samples, for questions about single pixels."""
+    """`pixels` is the selected layer, height x width x 3. `values` are layers of samples, for questions about single pixels."""
 
     number: int
     state: dict[str, Any]
@@ -44,7 +44,7 @@ class Frame:
 
 
 def facts_of(estimate: ErrorEstimate) -> dict[str, Any]:
-    """Unknown numbers are null, because JSON has no infinity."""
+    """JSON has no infinity, so unknown numbers are null."""
     numbers = {"error": estimate.relative_rmse, "low": estimate.relative_rmse_low, "high": estimate.relative_rmse_high}
     return {**{name: number if math.isfinite(number) else None for name, number in numbers.items()},
             "uncertain": [name_of(flag) for flag in Uncertain if flag in estimate.uncertain]}

@@ -18,7 +18,7 @@ from pt.view._built_in import SHARE, BuiltIn
 from pt.view._frame import LAYERS, OF_SAMPLES, Frame, facts_of, faults_of, name_of
 from pt.view._source import Shown, Source
 
-MOVING_SECONDS: Final = 0.03  # duration of a sample of all pixels while the camera moves
+MOVING_SECONDS: Final = 0.03  # time for a sample of all pixels while the camera moves
 STILL_SECONDS: Final = 0.25
 PUBLISHED_SHARE: Final = 0.03
 LOOK_SECONDS: Final = 0.5
@@ -26,14 +26,14 @@ SHADERS: Final = (".comp", ".glsl", ".h")
 
 
 class Renderer:
-    """published: called with each frame, on the rendering thread."""
+    """Calls published() with each frame, on the rendering thread."""
 
     def __init__(self, source: Source, published: Callable[[Frame], None], *, shader_dir: pathlib.Path | None = None,
                  device: str | None = None, most: int = 65536, size: tuple[int, int] | None = None) -> None:
         self._source, self._published, self._device, self._most = source, published, device, most
         self._shader_dir = shader_dir
-        self._built_in: BuiltIn | None = None  # once a kernel was edited
-        self._begins = True  # a test of the kernel
+        self._built_in: BuiltIn | None = None  # set once a kernel was edited
+        self._begins = True  # whether a test of a kernel begins
         self._context: Context | None = None
         self._faults: dict[str, str] = {}  # messages by cause
         self._history: list[list[float]] = []
@@ -76,7 +76,7 @@ class Renderer:
     def saved(self) -> tuple[str, bytes] | None:
         return self._source.saved(self._camera)
 
-    # The following functions run on the rendering thread.
+    # The functions below run on the rendering thread.
 
     def _run(self) -> None:
         while True:
@@ -99,7 +99,7 @@ class Renderer:
                 each.close()
 
     def _runs(self) -> bool:
-        """Even a stopped picture gets one sample after a restart."""
+        """A stopped picture still gets one sample after a restart."""
         wanted = self._playing or self._moving or not self._count
         is_behind = self._built_in is not None and self._built_in.is_behind(self._count)
         return wanted and (self._count < self._most or is_behind) and "rendering" not in self._faults
@@ -151,7 +151,7 @@ class Renderer:
         return restarts
 
     def _restart(self, context: Context) -> None:
-        """While the camera moves, pixels are as large as the device's speed requires."""
+        """While the camera moves, pixels are so large that the device is fast enough."""
         pixels = self._settings.width * self._settings.height
         self._scale = 1
         if self._moving and self._rate:
@@ -236,7 +236,7 @@ class Renderer:
         return restarts or bool(changed and not self._context)
 
     def _adopt(self, shown: Shown) -> None:
-        """Settings that the user changed in the page stay."""
+        """Keeps settings that the user has changed in the page."""
         if shown.camera != self._shown.camera:
             self._camera = shown.camera
         fields = {name: value for name, value in vars(shown.settings).items()

@@ -1,4 +1,4 @@
-"""The page's server. It listens only on 127.0.0.1. Everybody who knows the token in the address has full control."""
+"""The page's server. It listens only on 127.0.0.1. The token in the address gives full control."""
 
 from __future__ import annotations
 
@@ -30,8 +30,8 @@ TYPES: Final = {".html": "text/html", ".css": "text/css", ".js": "text/javascrip
 MOST_SOCKETS: Final = 16
 MOST_BYTES: Final = 2**20
 MOST_PIXELS: Final = 2**24
-IDLE_SECONDS: Final = 10.0  # time without a page until the view counts as unwatched
-NAMES: Final = r"(?:127\.0\.0\.1|localhost|\[::1\])(?::\d{1,5})?"  # host names; through a tunnel the port may differ
+IDLE_SECONDS: Final = 10.0  # after this time without a page the view counts as unwatched
+NAMES: Final = r"(?:127\.0\.0\.1|localhost|\[::1\])(?::\d{1,5})?"  # host names; a tunnel may change the port
 HEADERS: Final = {
     "Content-Security-Policy": "default-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' blob: data:; base-uri 'none'; "
                                "form-action 'none'",
@@ -112,7 +112,7 @@ class Server:
     @web.middleware
     async def _checked(self, request: web.Request, handler: Callable[[web.Request], Awaitable[web.StreamResponse]]
                        ) -> web.StreamResponse:
-        """Refuses requests without the token, and pages of other sites, which have another host name or origin."""
+        """Refuses requests without the token, and requests by pages of other sites, which have another host name or origin."""
         host, origin = request.headers.get("Host", ""), request.headers.get("Origin")
         if not re.fullmatch(NAMES, host) or origin not in (None, f"http://{host}"):
             raise web.HTTPForbidden(text="pt view: this host or origin is refused\n")

@@ -40,13 +40,13 @@ class Source(Protocol):
     path: pathlib.Path
 
     def read(self) -> Shown:
-        """Reads the contents, at each call anew. Raises Error, ValueError or OSError."""
+        """Reads the contents anew. Raises Error, ValueError or OSError."""
 
     def explained(self, error: Exception) -> str:
-        """Returns an error's message with the keys of the file."""
+        """The error's message with the keys of the file."""
 
     def saved(self, camera: Camera) -> tuple[str, bytes]:
-        """Returns the name and contents of a file with the scene and this camera."""
+        """Name and contents of a file with the scene and this camera."""
 
 
 class SceneSource:

@@ -1,4 +1,4 @@
-"""DCD files without a cell, for which MDAnalysis writes edges of length 0. chemfiles refuses them."""
+"""DCD files without a cell. MDAnalysis writes these with edges of length 0, which chemfiles refuses."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any, Final
 import numpy as np
 import numpy.typing as npt
 
-_CONTROL: Final = 8  # byte offset of the 20 numbers after the first marker and CORD
+_CONTROL: Final = 8  # byte offset of 20 numbers, after a marker and CORD
 _TITLE: Final = 92  # byte offset of the next record
 _LENGTHS: Final = (0, 2, 5)  # indices of the edge lengths among the numbers of a cell
 

@@ -9,7 +9,7 @@ from pt.figures.readers._lines import Lines
 
 
 class Frames(Protocol):
-    """Frames without particles do not count.
+    """Only frames with particles count.
 
     current  index of the default frame; None: the last
     models   numbers of a structure's models; None if frames are not models
@@ -22,7 +22,7 @@ class Frames(Protocol):
     def count(self) -> int: ...
 
     def has(self, index: int) -> bool:
-        """index: >= 0. Reads a file only as far as necessary."""
+        """Reads a file only as far as necessary. `index` is >= 0."""
 
     def read(self, index: int) -> Table:
         """index: in [0, count())."""
@@ -64,11 +64,11 @@ class TextFrames:
         self.name = lines.name
         self.notes: list[str] = []
         self._empty = 0
-        self._places = [lines.place()]  # positions of the known frames, and of the end of the last one
+        self._places = [lines.place()]  # positions of known frames, and of the end of the last one
         self._is_whole = False
 
     def head(self) -> int | None:
-        """Returns the next frame's number of particles, or None at the end of the file."""
+        """The next frame's number of particles, or None at the end of the file."""
         raise NotImplementedError
 
     def body(self, count: int) -> Table:

@@ -66,7 +66,7 @@ class Gro(TextFrames):
                 columns[name] = words.astype(np.int64 if name == "resid" else np.float64)
             except ValueError:
                 if name not in "xyz":
-                    continue  # Some rows may lack velocities or residue numbers.
+                    continue  # some rows may lack velocities or residue numbers
                 texts = [word.decode("utf-8", "replace").strip() for word in words]
                 row = next(row for row, text in enumerate(texts) if not text or not is_number(text))
                 raise DataError(f"{self.lines.name}:{first + row}: {name} = {texts[row]!r}: must be a number of {width} "
@@ -78,7 +78,7 @@ class Gro(TextFrames):
         points = [place for place, letter in enumerate(line) if letter == "."]
         width = points[1] - points[0] if len(points) > 1 else 0
         words = line.split()
-        if len(words) < 3 <= len(points):  # Numbers may touch.
+        if len(words) < 3 <= len(points):  # numbers may touch
             words = [line[start:start + width] for start in range(0, len(line.rstrip()), width)]
         if len(words) not in (3, 9) or not are_numbers(word.strip() for word in words):
             raise self.lines.refuse(f"{shown(line)}: the cell must have 3 or 9 numbers")

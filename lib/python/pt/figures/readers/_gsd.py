@@ -24,7 +24,7 @@ def _table(file: Any, index: int, frame: Any) -> Table:
     kinds = np.array(particles.types or ["A"], str)[np.asarray(particles.typeid)]
     columns["type"] = kinds
     for name in ("diameter", "charge", "mass", "body", "velocity"):
-        # The package would return HOOMD's defaults for missing arrays.
+        # For missing arrays the package would return HOOMD's defaults.
         if any(file.file.chunk_exists(frame=each, name=f"particles/{name}") for each in {0, index}):
             columns[name] = np.asarray(getattr(particles, name))
     names = set(particles.types)

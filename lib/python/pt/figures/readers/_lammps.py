@@ -19,7 +19,7 @@ HEAD_ENDS = "the file ends within the header of a frame: it was cut short"
 
 
 class LammpsDump(TextFrames):
-    marks: re.Pattern[bytes] | None = None  # parts of rows to skip
+    marks: re.Pattern[bytes] | None = None  # parts of rows that are skipped
 
     def __init__(self, lines: Lines) -> None:
         super().__init__(lines)
@@ -80,7 +80,7 @@ class LammpsDump(TextFrames):
         return [number(word) for word in words]
 
     def _box(self, words: list[str]) -> Cell | None:
-        """Reads "pp pp ff". Tilted cells have "xy xz yz" before it, general ones "abc origin"."""
+        """Reads "pp pp ff". "xy xz yz" precedes it for tilted cells, and "abc origin" for general ones."""
         tilted, general = words[:3] == ["xy", "xz", "yz"], words[:2] == ["abc", "origin"]
         flags = words[3 if tilted else 2 if general else 0:]
         if len(flags) not in (0, 3):
@@ -93,7 +93,7 @@ class LammpsDump(TextFrames):
 
 
 def cell_within(bounds: npt.ArrayLike, tilts: npt.ArrayLike, periodic: list[bool]) -> Cell | None:
-    """The cell with the tilts xy, xz, yz in a box (docs.lammps.org/Howto_triclinic.html)."""
+    """The cell in a box with the tilts xy, xz, yz (docs.lammps.org/Howto_triclinic.html)."""
     low, high = np.array(bounds, np.float64).T
     xy, xz, yz = np.array(tilts, np.float64)
     low -= min(0, xy, xz, xy + xz), min(0, yz), 0

@@ -69,7 +69,7 @@ class LammpsData:
             if text[:1].isupper() and _SECTION.fullmatch(text):
                 self._section(text, hint.strip())
             elif self.columns:
-                continue  # Other sections are skipped.
+                continue  # skips other sections
             elif found := _BOUNDS.fullmatch(text):
                 self.box[found[2]] = self._numbers(found[1], 2 if "lo" in found[2] else 3)
             elif found := _HEADER.fullmatch(text):
@@ -105,7 +105,7 @@ class LammpsData:
         return rows
 
     def _rows(self, what: str, names: list[str], least: int | None = None) -> dict[str, Array]:
-        """The first `least` columns are numbers, except that types may have labels. Further columns may have words."""
+        """The first `least` columns are numbers, except labels of types. Further columns may have words."""
         least = least or len(names)
         rows = Rows(self.lines, Layout(names, [name for name in names[:least] if name != "type"], least=least, is_table=True,
                                        rows=what))
@@ -137,7 +137,7 @@ class LammpsData:
         self.columns = self._rows("atoms", names, least)
 
     def _style(self, some: list[list[str]], hint: str) -> str:
-        """Uses the given style, else the hint after "Atoms", else the columns of some rows."""
+        """Uses the given style, or the hint after "Atoms", or the columns of some rows."""
         hint = hint.split()[0] if hint else ""
         if self.style is None and hint in STYLES:
             self.style = hint

@@ -19,7 +19,7 @@ from pt.figures._errors import DataError, module
 STANDARD_INPUT: Final = "-"
 PACKED_ENDINGS: Final = (".gz", ".zst", ".xz", ".bz2")
 BLOCK_BYTES: Final = 1 << 20
-LONGEST_LINE: Final = 1 << 24  # bytes; longer lines mean that the file is not text
+LONGEST_LINE: Final = 1 << 24  # bytes; a longer line means that the file is not text
 
 
 def _open_zstd(file: IO[bytes]) -> Any:
@@ -43,7 +43,7 @@ class Lines:
         except OSError as error:
             raise DataError(f"{self.name}: {error.strerror}") from None
         self.is_file = self._raw.seekable() and path != STANDARD_INPUT
-        if not self.is_file:  # Frames of a pipe may be read twice.
+        if not self.is_file:  # frames of a pipe may be read twice
             pipe, self._raw = self._raw, tempfile.TemporaryFile()
             shutil.copyfileobj(pipe, self._raw)
             if path != STANDARD_INPUT:
@@ -70,7 +70,7 @@ class Lines:
     def close(self) -> None:
         self._raw.close()
 
-    def __del__(self) -> None:  # Frames keep the file open until then.
+    def __del__(self) -> None:  # frames keep the file open until then
         if hasattr(self, "_raw") and self._raw is not sys.stdin.buffer:
             self.close()
 
@@ -130,7 +130,7 @@ class Lines:
         return b"".join(blocks)
 
     def block(self, most: int = sys.maxsize) -> tuple[bytes, int]:
-        """Returns up to `most` whole lines, limited by the buffer, and their number; 0 at the end."""
+        """Returns up to `most` whole lines from the buffer, and their number, which is 0 at the end."""
         if len(self._buffer) - self._next < BLOCK_BYTES:
             self._fill()
         while (end := self._buffer.rfind(b"\n", self._next) + 1) == 0 and self._fill():
@@ -153,7 +153,7 @@ class Lines:
         return self.byte, self.number
 
     def go_to(self, place: tuple[int, int]) -> None:
-        """Unpacks a packed file again to go back."""
+        """Going back in a packed file means unpacking it again."""
         byte, number = place
         if byte != self.byte:
             if self.is_packed:
@@ -195,6 +195,6 @@ def _after_lines(data: bytes, start: int, end: int, most: int) -> tuple[int, int
 
 
 def ending(path: str) -> str:
-    """The lower-case ending. Skips the ending of a packer, such as .gz."""
+    """The lower-case ending, without a packer's ending such as .gz."""
     name = Path(path.lower())
     return Path(name.stem).suffix if name.suffix in PACKED_ENDINGS else name.suffix

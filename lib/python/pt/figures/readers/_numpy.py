@@ -41,7 +41,7 @@ def _array(lines: Lines) -> Array:
     try:
         is_first = npy.read_magic(stream) == (1, 0)
         shape, is_fortran, kind = (npy.read_array_header_1_0 if is_first else npy.read_array_header_2_0)(stream)
-    except Exception as error:  # NumPy parses the header as a Python expression, so any exception is possible.
+    except Exception as error:  # NumPy evaluates the header as Python, so any exception is possible
         raise DataError(f"{lines.name}: byte {lines.byte}: {str(error)[:200]}: the header of an NPY file is damaged or was cut "
                         "short") from None
     if kind.hasobject or not kind.itemsize or min(shape, default=0) < 0:
@@ -56,7 +56,6 @@ def _array(lines: Lines) -> Array:
 
 
 def _require_text(name: str, values: Array) -> None:
-    """NumPy does not check that the bytes are text."""
     for field in values.dtype.names or ("",):
         column = values[field] if field else values
         if column.dtype.kind == "U" and column.dtype.itemsize:

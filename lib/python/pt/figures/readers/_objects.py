@@ -1,4 +1,4 @@
-"""Objects of other packages. Their types are recognised by name, not by import."""
+"""Objects of other packages. Names of types identify these objects, so no package is imported."""
 
 from __future__ import annotations
 

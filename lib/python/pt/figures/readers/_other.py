@@ -83,6 +83,6 @@ def tried(path: str, package: str, read: Callable[[], Any]) -> Any:
             return read()
     except (DataError, KeyboardInterrupt, SystemExit, MemoryError):
         raise
-    except BaseException as error:  # Each package has its own exceptions; chemfiles does not derive them from Exception.
+    except BaseException as error:  # packages have their own exceptions, and chemfiles' do not derive from Exception
         words = " ".join(str(error).split()) or type(error).__name__
         raise DataError(f"{path}: {package} cannot read it: {words}") from error

@@ -26,7 +26,7 @@ def read_pcd(lines: Lines) -> Table:
     try:
         counts = map(int, head.get("COUNT", ["1"] * len(head["FIELDS"])))
         for name, kind, size, width in zip(head["FIELDS"], head["TYPE"], head["SIZE"], counts, strict=True):
-            for i in range(width):  # Several padding fields may have one name.
+            for i in range(width):  # padding fields may have equal names
                 key = name if width == 1 and name not in kinds else f"{name}[{i or len(kinds)}]"
                 kinds[key] = np.dtype({"F": "f", "U": "u", "I": "i"}[kind] + size).str
         count = int(head["POINTS"][0])

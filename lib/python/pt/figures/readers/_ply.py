@@ -69,7 +69,7 @@ def _ply_head(lines: Lines) -> tuple[str, list[_Element]]:
 
 
 def text_columns(lines: Lines, kinds: Mapping[str, str], count: int, notes: list[str]) -> dict[str, Array]:
-    """Numbers get the types in the header, which determine the scale of colors."""
+    """The header's types determine the scale of colors."""
     rows = Rows(lines, Layout(list(kinds), list(kinds)))
     rows.read(count)
     notes += rows.notes
@@ -95,7 +95,7 @@ def binary_columns(lines: Lines, kinds: Mapping[str, str], count: int, _: list[s
 
 
 def _by_value(lines: Lines, element: _Element, order: str) -> dict[str, Array]:
-    """Reads single values, because lists give records different lengths. Reads text if order is empty."""
+    """Reads single values, because lists give records different lengths. An empty order means text."""
     words: list[str] = []
 
     def take(kind: str, count: int) -> Array:
@@ -119,7 +119,7 @@ def _by_value(lines: Lines, element: _Element, order: str) -> dict[str, Array]:
                     values[name].append(found[0])
         except DataError:
             raise
-        except (ValueError, OverflowError) as error:  # The text is not a number, or a list's length is negative.
+        except (ValueError, OverflowError) as error:  # text that is not a number, or a negative length of a list
             raise lines.refuse(f"{shown(line)}: {error}") from None
         if words:
             raise lines.refuse(f"{shown(line)}: has {len(words)} more values than the header states")

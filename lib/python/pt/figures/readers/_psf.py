@@ -14,7 +14,7 @@ from pt.figures.readers._atoms import atoms_table
 from pt.figures.readers._lines import Lines
 
 _LEAST: Final = 8
-_MASSLESS: Final = 0.5  # daltons: Drude particles and lone pairs are lighter
+_MASSLESS: Final = 0.5  # daltons: lighter sites are Drude particles or lone pairs
 
 
 def read_psf(lines: Lines) -> Table:

@@ -1,4 +1,4 @@
-"""Rows of text as columns. pandas reads large blocks. Small blocks and those with a bad row are read row by row."""
+"""Rows of text as columns. pandas reads large blocks. Small blocks, and blocks with a bad row, are read row by row."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from pt.figures.readers._lines import Lines
 
 Array = npt.NDArray[Any]
 
-_TABLE: Final = ""  # key of three columns of positions that are stored as one table
+_TABLE: Final = ""  # key of positions that are stored as one table of three columns
 FEW_BYTES: Final = 1 << 16
 MISSING: Final = ("", "nan", "NaN", "NAN", "-nan", "NA", "N/A", "n/a", "null", "None", "-")
 _WHOLE: Final = re.compile(r"[+-]?\d+")
@@ -52,7 +52,7 @@ def number(text: str, decimal: str = ".") -> float:
     if text in MISSING:
         return np.nan
     if "_" in text:
-        raise ValueError(text)  # float() would accept it.
+        raise ValueError(text)  # float() would accept this text
     return float(_EXPONENT.sub(r"\1e\2", text if decimal == "." else text.replace(decimal, ".")))
 
 
@@ -73,7 +73,6 @@ def is_comment(line: str) -> bool:
 
 
 def fields_of(line: str, separator: str) -> list[str]:
-    """Raises csv.Error if a quoted field does not end."""
     if not separator:
         return [word.strip('"') for word in line.split()]
     if '"' not in line:
@@ -91,7 +90,7 @@ class Rows:
         self._are_words: list[bool] = []
 
     def read(self, count: int | None = None, marks: re.Pattern[bytes] | None = None) -> None:
-        """Reads exactly count rows, or all. Text that matches `marks` counts as blank."""
+        """Reads exactly `count` rows, or all. Text that matches `marks` counts as blank."""
         lines = self.lines
         while count is None or self.count < count:
             first = lines.number + 1
@@ -118,7 +117,7 @@ class Rows:
         self.count += len(columns[0])
 
     def _put(self, key: str, piece: Array) -> None:
-        """The system allocates only pages that are written, so doubling is cheap."""
+        """Doubling is cheap, because the system allocates only pages that are written."""
         have, end = self._columns.get(key, piece[:0]), self.count + len(piece)
         kind = np.result_type(have, piece)
         if end > len(have) or kind != have.dtype:
@@ -165,10 +164,10 @@ class Rows:
                 dtype={i: "category" for i in range(width) if self._are_words[i]}, keep_default_na=False,
                 na_values={i: list(MISSING) for i in range(width) if not self._are_words[i]}, low_memory=False,
                 encoding_errors="replace", engine="c",
-                **({"float_precision": "round_trip"} if pandas.__version__ < "3" else {}))  # the default of pandas 3
+                **({"float_precision": "round_trip"} if pandas.__version__ < "3" else {}))  # as pandas 3 does by default
         except (ValueError, OverflowError):
             return None
-        may_skip = layout.is_table and b'"' not in data  # pandas may skip blank lines.
+        may_skip = layout.is_table and b'"' not in data  # pandas may skip blank lines
         if frame.shape[1] != width or len(frame) > height or (len(frame) < height and not may_skip):
             return None
         columns: list[Array] = []
@@ -185,7 +184,7 @@ class Rows:
         return columns if self._has_all_fields(last == "" if last.dtype.kind == "U" else np.isnan(last), data, height) else None
 
     def _has_all_fields(self, is_missing: Array, data: bytes, height: int) -> bool:
-        """Whether all rows have a last field. pandas takes a missing field for a missing value."""
+        """Whether all rows have a last field. pandas cannot tell a missing field from a missing value."""
         rows = np.flatnonzero(is_missing)
         if not len(rows) or len(self.layout.names) == 1:
             return True

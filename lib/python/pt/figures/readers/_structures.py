@@ -24,13 +24,13 @@ Array = npt.NDArray[Any]
 _ATOMS: Final = frozenset((b"ATOM  ", b"HETATM"))
 _OTHERS: Final = frozenset((b"HEADER", b"EXPDTA", b"SSBOND", b"LINK  ", b"CONECT"))
 _ELEMENT_AND_CHARGE: Final = re.compile(rb"( [A-Za-z]|[A-Za-z][A-Za-z]|[A-Za-z] )( *|[1-9][+-])")
-_DEUTERIUM: Final = 119  # gemmi's number of the element
+_DEUTERIUM: Final = 119  # gemmi's number for deuterium
 PART: Final = 5000  # most atoms in a part of a chain
 _OTHER_PART: Final = "\x7f"  # suffix for the name of every second part of a chain
 
 
 def read_pdb(lines: Lines, is_pdbqt: bool = False) -> Listed:
-    """Lets gemmi read each model alone, because cells may differ and model numbers may repeat."""
+    """gemmi reads each model alone, because cells may differ and model numbers may repeat."""
     gemmi = module("gemmi", f"{lines.name}: PDB")
     rows = lines.text().replace(b"\r", b"").split(b"\n")
     others, models = _split(rows, _with_autodock_element if is_pdbqt else _with_element)
@@ -71,7 +71,7 @@ def _split(lines: list[bytes], completed: Callable[[bytes], bytes]) -> tuple[lis
                 number = int(line[6:])
     cells = [model[0] for _, model in models if model[0]]
     for _, model in models:
-        model[0] = model[0] or next(iter(cells), b"")  # A cell may follow its model.
+        model[0] = model[0] or next(iter(cells), b"")  # a cell may follow its model
     return others, models
 
 
@@ -80,7 +80,7 @@ def _in_columns(line: bytes) -> bytes:
         a, b, c, alpha, beta, gamma = map(float, line[6:].split()[:6])
         return f"CRYST1{a:9.3f}{b:9.3f}{c:9.3f}{alpha:7.2f}{beta:7.2f}{gamma:7.2f}".encode() + line.rstrip()[54:]
     except ValueError:
-        return line  # Numbers may touch.
+        return line  # numbers may touch
 
 
 def _with_element(line: bytes) -> bytes:
@@ -113,7 +113,7 @@ def frames_of(name: str, structure: Any) -> Listed:
 
 
 def divide_chains(block: Any) -> None:
-    """Divides long chains of mmCIF into parts with different names: gemmi's search for a residue is linear in a chain."""
+    """gemmi searches residues of a chain linearly, so long chains of mmCIF are divided into parts with different names."""
     gemmi = module("gemmi", block.name)
     chains = block.find_values("_atom_site.auth_asym_id") or block.find_values("_atom_site.label_asym_id")
     names: dict[str, str] = {}
@@ -126,7 +126,7 @@ def divide_chains(block: Any) -> None:
 
 
 def _named_by_number(structure: Any) -> Array:
-    """Gives chains the short names that a FlatStructure requires."""
+    """A FlatStructure requires short names of chains."""
     chains = [chain for model in structure for chain in model]
     names = [chain.name.removesuffix(_OTHER_PART) for chain in chains]
     for number, chain in enumerate(chains):
@@ -141,7 +141,7 @@ def _flat(structure: Any) -> Any:
         return gemmi.FlatStructure(structure)
     except RuntimeError:
         for residue in (residue for model in structure for chain in model for residue in chain):
-            residue.subchain = ""  # FlatStructure refuses long names, and figures do not show this one.
+            residue.subchain = ""  # FlatStructure refuses long names, and figures do not show this one
         return gemmi.FlatStructure(structure)
 
 
@@ -161,7 +161,7 @@ def _table(structure: Any, flat: Any, chains: Array, rows: slice) -> Table:
 
 
 def _words(letters: Array) -> Array:
-    """letters: each row is a word, padded with zeros."""
+    """Each row of `letters` is a word, padded with zeros."""
     rows = np.ascontiguousarray(letters).view(np.uint8)
     width = max(1, int((rows != 0).any(axis=0).sum()))
     packed = np.ascontiguousarray(rows[:, :width]).view(f"S{width}").reshape(-1)
@@ -202,7 +202,7 @@ def _bonds(structure: Any, columns: dict[str, Array], notes: list[str]) -> Bonds
 
 
 def _connections(structure: Any, columns: dict[str, Array]) -> Iterator[tuple[int, int]]:
-    """Reads struct_conn, or LINK and SSBOND, within the asymmetric unit, without hydrogen bonds."""
+    """From struct_conn, or LINK and SSBOND, within the asymmetric unit. Hydrogen bonds are left out."""
     gemmi = module("gemmi", structure.name)
     wanted = [each for each in structure.connections
               if each.type != gemmi.ConnectionType.Hydrog and each.asu != gemmi.Asu.Different]

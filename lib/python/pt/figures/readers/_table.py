@@ -24,7 +24,7 @@ def read_table(lines: Lines, mapping: Mapping[str, str]) -> Table:
         start = lines.place()
     if line is None:
         raise lines.refuse("the file has no rows")
-    if line.strip().isdecimal() and lines.peek(1):  # Scanners write the number of points first.
+    if line.strip().isdecimal() and lines.peek(1):  # scanners write the number of points first
         start = lines.place()
         line = lines.line() or ""
     layout, has_names = _layout(line, comment, lines)
@@ -41,12 +41,12 @@ def read_table(lines: Lines, mapping: Mapping[str, str]) -> Table:
 
 
 def _layout(line: str, comment: str, lines: Lines) -> tuple[Layout, bool]:
-    """The first line that is not a comment decides. Also returns whether it has names."""
+    """The first line that is not a comment decides. Also returns whether this line has names."""
     separator = next((each for each in _SEPARATORS if each in line), "")
     has_comma = separator != "," and re.search(r"\d,\d", line + lines.peek(1000).decode("utf-8", "replace")) is not None
     decimal = "," if has_comma else "."
     if separator == "," and re.fullmatch(r"\s*([-+]?\d+,\d+\s+)+[-+]?\d+,\d+\s*", line):
-        separator, decimal = "", ","  # Commas are decimal marks here, so blanks separate columns.
+        separator, decimal = "", ","  # commas are decimal marks, so blanks separate columns
     try:
         first = fields_of(line, separator)
     except csv.Error:
@@ -65,14 +65,14 @@ def _layout(line: str, comment: str, lines: Lines) -> tuple[Layout, bool]:
 
 
 def _default_names(first: list[str], decimal: str) -> list[str]:
-    """Names columns x, y, z, then 4, 5, ... A first column of words is the species."""
+    """The names are x, y, z, then 4, 5, ... A first column of words is the species."""
     is_labelled = len(first) > 3 and not is_number(first[0], decimal)
     names = (["species"] if is_labelled else []) + ["x", "y", "z"]
     return (names + [str(i) for i in range(len(names) + 1, len(first) + 1)])[:len(first)]
 
 
 def _with_colors(columns: dict[str, npt.NDArray[Any]], notes: list[str]) -> dict[str, npt.NDArray[Any]]:
-    """Three last columns with integers from 0 to 255 are colors, as scanners write them."""
+    """Scanners write colors as three last columns of integers from 0 to 255."""
     names = list(columns)[-3:]
     last = [columns[name] for name in names]
     if len(columns) < 6 or any(column.dtype.kind != "i" for column in last):

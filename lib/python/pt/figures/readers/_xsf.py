@@ -40,7 +40,7 @@ def read_xsf(lines: Lines) -> Listed:
             steps.append((vectors, rows))
             continue
         elif word.startswith("BEGIN_BLOCK"):
-            break  # Grids of numbers follow.
+            break  # grids of numbers follow
         line = lines.line()
     steps = [step for step in steps if step[1]]
     if not steps:

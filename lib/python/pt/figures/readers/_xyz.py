@@ -48,7 +48,7 @@ class Xyz(TextFrames):
         return Table(rows.columns(), cell, rows.notes, is_text=True)
 
     def _names(self) -> tuple[list[str], int | None]:
-        """Also returns the least number of fields in a row if more may follow."""
+        """Also returns the least number of fields, if rows may have more."""
         properties = self._pairs.get("properties")
         if properties is None:
             first = self.lines.peek(1 << 16).split(b"\n", 1)[0].decode("utf-8", "replace").split()

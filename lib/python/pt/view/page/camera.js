@@ -1,4 +1,4 @@
-// Camera movements by mouse, fingers and keys. A camera is a section of a scene file. All functions return a new one.
+// Camera movements by mouse, fingers and keys. A camera is a section of a scene file. Each function returns a new camera.
 
 const add = (a, b, scale = 1) => a.map((value, i) => value + scale * b[i]);
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -11,7 +11,7 @@ function axes(camera) {
   return [right, cross(right, forward), forward];
 }
 
-// Moves look_at, the center of rotation, to this depth. A lens keeps its focus.
+// Moves look_at, the center of rotation, to this depth. The focus of a lens stays.
 export function turnsAbout(camera, depth) {
   const forward = axes(camera)[2];
   const moved = {...camera, look_at: add(camera.position, forward, depth)};
@@ -20,7 +20,7 @@ export function turnsAbout(camera, depth) {
   return moved;
 }
 
-// Turns by angles: to the right about up, and upwards, short of the poles.
+// Turns to the right about `up`, and upwards, but not over the poles.
 export function orbit(camera, toRight, upwards) {
   const up = unit(camera.up);
   const back = add(camera.position, camera.look_at, -1), distance = Math.hypot(...back);

@@ -46,7 +46,7 @@ function paint() {
     $("exposure").value = state.stops;
 }
 
-// Enlarges by an integer factor, so that all pixels have the same size.
+// Enlarges by an integer factor, so all pixels have the same size.
 function fit() {
   const stage = $("stage"), canvas = $("picture");
   const [width, height] = state.size;
@@ -146,7 +146,7 @@ function tellPixel(pixel) {
 }
 
 let drag;
-let settled = 0; // time from which frames have the new camera; earlier frames may show an older one
+let settled = 0; // frames before this time may show an older camera
 
 function move(next) {
   camera = next;
@@ -155,7 +155,7 @@ function move(next) {
   $("camera").value = line(camera);
 }
 
-// Rotations are about the middle of the picture. It stays fixed while the camera moves.
+// Rotations are about the middle of the picture, which stays fixed while the camera moves.
 function pivoted() {
   return state.pivot && camera === state.camera && !state.moving ? turnsAbout(camera, state.pivot) : camera;
 }
@@ -271,7 +271,7 @@ function begin() {
   $("back").addEventListener("click", back);
   $("copy").addEventListener("click", () => {
     $("camera").select();
-    document.execCommand("copy"); // navigator.clipboard needs a secure context.
+    document.execCommand("copy"); // navigator.clipboard needs a secure context
   });
   $("png").addEventListener("click", () => $("picture").toBlob(blob => {
     const link = Object.assign(document.createElement("a"), {href: URL.createObjectURL(blob), download: "picture.png"});
