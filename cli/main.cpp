@@ -37,7 +37,7 @@ int main(int argument_count, char **arguments) {
     } catch (const std::exception &error) {
         return fail(cli::ExitCode::internal, std::string("internal error: ") + error.what());
     }
-    // An earlier failure takes precedence, such as the signal of a closed terminal.
+    // An earlier failure takes precedence, for example the signal of a closed terminal.
     if (!std::cout.flush()) {
         const int output_code = fail(cli::ExitCode::file, "cannot write to standard output");
         return code == 0 ? output_code : code;

@@ -35,7 +35,7 @@ bool may_name_program(std::string_view name) {
     return !name.empty() && name.front() != '-' && name.find_first_not_of(letters) == std::string_view::npos;
 }
 
-// Returns the argument of pip install, or an empty text for a program of another project.
+// The argument of pip install. Empty for a program of another project.
 std::string_view package_of(std::string_view name) {
     return name == "figure"    ? "'./lib/python[figure]'"
            : name == "tachyon" ? "./lib/python"

@@ -10,7 +10,7 @@ namespace cli {
 namespace {
 
 struct OptionName {
-    std::string_view subject; // subject and member as in pt_broken_rule
+    std::string_view subject;
     std::string_view member;
     const char *option;
 };

@@ -1,4 +1,4 @@
-// A pt_context that throws Failure, with errors in terms of options and scene files.
+// A pt_context whose failed calls throw Failure. Messages name options and places in scene files.
 #pragma once
 
 #include "cli/base/environment.h"
@@ -27,7 +27,7 @@ namespace cli {
 using pt::BrokenRule;
 using pt::sized;
 
-// Returns for example "--size: width"; nullptr if no option sets the field.
+// For example "--size: width". Returns nullptr if no option sets the field.
 const char *find_option(const BrokenRule &rule);
 
 struct LibraryError {
@@ -35,7 +35,7 @@ struct LibraryError {
     std::vector<BrokenRule> rules; // empty if the message concerns no field
     std::uint64_t left_out = 0;    // broken rules beyond `rules`
 
-    // Returns a line for each rule or, without rules, the message.
+    // A line for each rule or, without rules, the message.
     std::string in_words(const std::function<std::string(const BrokenRule &)> &words) const;
 };
 
@@ -53,7 +53,7 @@ public:
     explicit Context(pt_create_info info) : shader_dir_(info.shader_dir == nullptr ? "" : info.shader_dir) {
         choose_vector_width();
         kernels_.serve(info);
-        const EndAtOnce compiling; // Compiling may take long.
+        const EndAtOnce compiling; // compiling may take long
         const pt_result result = pt_create(&info, &context_);
         if (result < 0)
             fail(result, cli::last_error(nullptr));
@@ -70,7 +70,7 @@ public:
         require(pt_reload_shaders(context_));
     }
 
-    // For calls that fail independently of the user's input.
+    // For calls whose failures do not depend on the user's input.
     void require(pt_result result) const {
         if (result < 0)
             fail(result, last_error());

@@ -69,7 +69,7 @@ void print_json(const std::vector<pt_device_info> &devices) {
 }
 
 int run_devices(bool as_json) {
-    choose_vector_width(); // llvmpipe's name contains the width.
+    choose_vector_width(); // the name of llvmpipe contains the width
     const std::vector<pt_device_info> devices = list_devices();
     if (as_json)
         print_json(devices);

@@ -11,7 +11,7 @@
 namespace cli {
 namespace {
 
-// The compiler's builtin would need a runtime that Zig lacks.
+// Zig lacks the runtime of the compiler's builtin.
 bool has_avx512() {
 #if defined(__x86_64__)
     constexpr unsigned int needed = bit_AVX512F | bit_AVX512BW | bit_AVX512DQ | bit_AVX512VL;
@@ -44,7 +44,7 @@ void widen_vectors() {
     std::error_code error;
     if (!cache.empty())
         std::filesystem::create_directories(cache / "shaders-512",
-                                            error); // Mesa creates only the last folder.
+                                            error); // Mesa creates only the last folder
     if (cache.empty() || error)
         platform::set_environment("MESA_SHADER_CACHE_DISABLE", "true");
     else

@@ -9,7 +9,7 @@ namespace cli {
 
 enum class ExitCode {
     done = 0,
-    internal = 1, // a wrong result of program, driver or device
+    internal = 1, // wrong result of program, driver or device
     usage = 2,
     scene = 3,
     no_device = 4,
@@ -59,7 +59,7 @@ constexpr int exit_code_of_signal(int signal) {
     return static_cast<int>(ExitCode::signal) + signal;
 }
 
-// For calls that fail independently of the user's input.
+// For calls whose failures do not depend on the user's input.
 constexpr ExitCode exit_code_of(pt_result result) {
     switch (result) {
     case PT_ERROR_INVALID_ARGUMENT:

@@ -24,13 +24,13 @@ fs::path folder_of(const fs::path &path) {
     return path.has_parent_path() ? path.parent_path() : ".";
 }
 
-// Empty if there is no file. Input and output may be the same terminal.
+// Returns an empty path if there is no file. Input and output may be the same terminal.
 fs::path target_of(const NamedFile &file, bool is_input) {
     if (file.path != standard_stream)
         return file.path;
     if (is_input)
         return platform::regular_size(platform::standard_input) ? "/dev/stdin" : "";
-    return "/dev/stdout"; // Two reports on one stream would mix.
+    return "/dev/stdout"; // two reports on one stream would mix
 }
 
 // Whether both are one existing file, or one name in one folder.
@@ -47,7 +47,7 @@ bool is_same(const fs::path &one, const fs::path &other) {
 
 } // namespace
 
-// The temporary name is short, because the target's name may have the maximum length.
+// Short, because the target's name may have the maximum length.
 std::string temporary_name(int attempt) {
     return ".pt-" + std::to_string(platform::process_number()) + "-" + std::to_string(attempt) + ".tmp";
 }
@@ -69,7 +69,7 @@ AtomicFile::~AtomicFile() {
     if (!file_.is_open())
         return;
     std::error_code ignored;
-    file_.close(); // Some systems cannot remove an open file.
+    file_.close(); // some systems cannot remove an open file
     fs::remove(temporary_, ignored);
 }
 
@@ -97,7 +97,7 @@ void AtomicFile::fail(int error) const {
     throw Failure(ExitCode::file, "cannot write " + path_ + ": " + std::generic_category().message(error));
 }
 
-// A rename would replace a write-protected file, or a device by a regular file.
+// A rename would replace a write-protected file, or put a regular file in place of a device.
 void AtomicFile::refuse_unsuitable_target() const {
     std::error_code error;
     const fs::file_status status = fs::status(target_, error);
@@ -176,7 +176,7 @@ void OutputFile::commit() {
     if (file_) {
         file_->commit();
     } else if (!std::cout.flush()) {
-        std::cout.clear(); // Prevents a second report at the program's end.
+        std::cout.clear(); // prevents a second report at the end of the program
         throw Failure(ExitCode::file, "cannot write to standard output");
     }
 }

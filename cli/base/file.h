@@ -15,7 +15,7 @@
 
 namespace cli {
 
-// attempt: number of names already taken.
+// `attempt` is the number of names already taken.
 std::string temporary_name(int attempt);
 
 void remove_abandoned(const std::filesystem::path &folder);
@@ -26,7 +26,7 @@ public:
     explicit AtomicFile(const std::string &path);
     AtomicFile(const AtomicFile &) = delete;
     AtomicFile &operator=(const AtomicFile &) = delete;
-    ~AtomicFile(); // removes the temporary file unless committed
+    ~AtomicFile();
 
     void write(std::span<const std::byte> bytes);
     void commit();
@@ -34,8 +34,8 @@ public:
     // Leaves no file.
     static void check_writable(const std::string &path);
 
-    // Follows symbolic links, because a rename would replace the link. Refuses another user's link in a sticky folder
-    // that everybody can write, unless the folder's owner owns the link.
+    // Symbolic links are followed, because a rename would replace the link. Refuses another user's link in a sticky
+    // folder that everybody can write, unless the folder's owner owns the link.
     static std::filesystem::path target_of(const std::string &path);
 
 private:
@@ -49,10 +49,10 @@ private:
     platform::FileDescriptor file_;
 };
 
-// role: option for the file, such as "--stats".
+// `role` is the option for the file, such as "--stats".
 struct NamedFile {
     std::string role;
-    std::string path; // empty: no file; "-": standard input or output
+    std::string path; // empty if there is no file; "-" for standard input or output
 };
 
 // Throws Failure(ExitCode::usage) if an output is also an input or another output, through any path or link.

@@ -31,7 +31,7 @@ void store_kernels(void *user, const char *key, const void *data, std::uint64_t 
     try {
         static_cast<const KernelFolder *>(user)->store(key, {static_cast<const std::byte *>(data), size_bytes});
     } catch (const std::exception &) {
-        return; // The next start compiles again.
+        return; // the next start compiles again
     }
 }
 
@@ -41,7 +41,7 @@ struct KeptFile {
     fs::file_time_type last_use;
 };
 
-// Includes foreign files, such as a killed process's temporary file.
+// Includes foreign files, such as temporary files of killed processes.
 std::vector<KeptFile> files_in(const fs::path &folder) {
     std::vector<KeptFile> files;
     std::error_code error;

@@ -17,15 +17,14 @@ public:
     static constexpr std::size_t most_files = 32;
     static constexpr std::uint64_t most_bytes = std::uint64_t{64} << 20;
 
-    // An empty path means no cache.
     explicit KernelFolder(std::filesystem::path path) : path_(std::move(path)) {}
 
-    // Returns the size of the data. Fills bytes if they are large enough.
+    // Returns the size of the data. Fills `bytes` if they are large enough.
     std::uint64_t load(const std::string &key, std::span<std::byte> bytes) const;
 
     void store(const std::string &key, std::span<const std::byte> bytes) const;
 
-    // The object must outlive the context.
+    // This object must outlive the context.
     void serve(pt_create_info &info);
 
 private:

@@ -1,4 +1,3 @@
-// Numbers in options. There are no octal numbers.
 #pragma once
 
 #include <algorithm>

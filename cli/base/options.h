@@ -21,7 +21,7 @@ using pt::ValueRule;
 
 using Run = std::function<int()>;
 
-// When the command line names the command, `chosen` becomes `run`. notes: end of the help.
+// When the command line names this command, `chosen` becomes `run`. `notes` end the help.
 CLI::App &add_command(CLI::App &program, Run &chosen, const std::string &name, const std::string &description,
                       const std::string &notes, Run run);
 
@@ -47,7 +47,7 @@ CLI::Option *add_number(CLI::App &command, const std::string &name, const ValueR
         command, name, rule, [&target](const nlohmann::json &value) { target = value.get<Number>(); }, help);
 }
 
-// find: returns the value of a name, if known. kind: kind of names, for messages.
+// find() returns the value of a name, if known. Messages call names `kind`.
 template <typename Target, typename Find>
 CLI::Option *add_name(CLI::App &command, const std::string &name, Target &target, Find find, std::string_view kind,
                       std::span<const std::string_view> names, const std::string &help) {
@@ -57,7 +57,7 @@ CLI::Option *add_name(CLI::App &command, const std::string &name, Target &target
         help);
 }
 
-// value: placeholder in the help.
+// The help shows `value` as a placeholder.
 CLI::Option *add_text(CLI::App &command, const std::string &name, std::string &target, const std::string &value,
                       const std::string &help);
 

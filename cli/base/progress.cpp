@@ -93,7 +93,7 @@ void Progress::say(const std::string &message) {
     print_message(message);
 }
 
-// Leaves out the last parts on a narrow terminal, because a wrapped line cannot be erased.
+// On a narrow terminal drops the last parts, because a wrapped line cannot be erased.
 void Progress::print_line(double samples, double seconds) {
     const std::array<std::string, 5> parts{
         formatted("%5.1f %%", 100.0 * fraction_),
@@ -105,7 +105,7 @@ void Progress::print_line(double samples, double seconds) {
     const std::size_t columns = column_count_();
     std::string line;
     for (const std::string &part : parts) {
-        if (line.size() + part.size() >= columns) // Some terminals wrap after the last column.
+        if (line.size() + part.size() >= columns) // some terminals wrap after the last column
             break;
         line += part;
     }

@@ -12,7 +12,6 @@ namespace cli {
 
 enum class ProgressStyle { none, line, json };
 
-// 80 if unknown.
 std::size_t terminal_columns();
 
 class Progress {
@@ -25,7 +24,7 @@ public:
     Progress &operator=(const Progress &) = delete;
     ~Progress() { erase_line(); }
 
-    // begin, end: fractions of the whole work.
+    // `begin` and `end` are fractions of the whole work.
     void enter_part(double begin, double end) {
         part_begin_ = begin;
         part_end_ = end;
@@ -43,7 +42,6 @@ public:
 
     void limit_time(double seconds) { limit_seconds_ = seconds; }
 
-    // Infinite if unknown.
     void show_error(double relative_error) { relative_error_ = relative_error; }
 
     bool shows_error() const { return style_ == ProgressStyle::line; }

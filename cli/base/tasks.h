@@ -12,7 +12,7 @@ namespace cli {
 
 class BackgroundTask {
 public:
-    // Runs work in a thread or, on a system without threads, immediately. No other work may be running.
+    // Runs work in a thread, or immediately on a system without threads. No other work may be running.
     void start(std::function<void()> work) {
         future_ = std::async(std::launch::async | std::launch::deferred, std::move(work));
         if (future_.wait_for(std::chrono::seconds(0)) == std::future_status::deferred)
@@ -25,18 +25,17 @@ public:
 
     bool is_begun() const { return future_.valid(); }
 
-    // Rethrows the work's exception.
     void finish() {
         if (future_.valid())
             future_.get();
     }
 
 private:
-    std::future<void> future_; // Its destructor waits for the thread.
+    std::future<void> future_; // the destructor waits for the thread
 };
 
-// Calls work(first, end) for parts of [0, count) with at least `grain` items. Rethrows an exception after all have
-// ended.
+// Calls work(first, end) for parts of [0, count) with at least `grain` items. After all have ended, rethrows an
+// exception of one of them.
 template <typename Work>
 void in_parallel(std::size_t count, std::size_t grain, const Work &work) {
     const std::size_t processors = std::max(std::thread::hardware_concurrency(), 1U);

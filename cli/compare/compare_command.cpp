@@ -22,14 +22,14 @@ namespace cli {
 namespace {
 
 struct ImageDifference {
-    // Means over channels of pixels that are finite in both images, for values x and reference values r.
+    // Means over the channels of pixels that are finite in both images. x are the values, and r the reference's.
     double mse;          // mean of (x - r)^2
     double relative_mse; // mean of (x - r)^2 / (r^2 + 0.01)
 
     double maximum;
-    std::size_t maximum_value; // index of the pixel value with this difference
+    std::size_t maximum_value; // index of a pixel value with this difference
 
-    std::size_t not_finite; // pixels that are not finite in some channel of either image
+    std::size_t not_finite; // pixels with a channel that is not finite in either image
 };
 
 using Values = std::span<const float>;
@@ -71,10 +71,10 @@ ImageDifference compare_images(Values image, Values reference) {
 struct CompareOptions {
     std::string image;
     std::string reference;
-    std::string layer; // empty: the main layer
+    std::string layer; // empty for the main layer
     std::string json;
     std::string difference;
-    KernelTask kernels; // used instead of images if it has a shader_dir
+    KernelTask kernels; // replaces the images if it has a shader_dir
     LightRule rule;
     bool quiet = false;
 
@@ -219,7 +219,7 @@ struct CompareReport {
     }
 };
 
-// Prints the reason, unless the light is the same.
+// Prints the reason for any verdict but the same light.
 ExitCode exit_code_of(const LightVerdict &verdict) {
     if (verdict.is_decided() && !verdict.is_different())
         return ExitCode::done;

@@ -11,10 +11,10 @@
 namespace cli {
 namespace {
 
-constexpr std::uint32_t first_look = 16; // samples per pixel
+constexpr std::uint32_t first_look = 16; // samples per pixel of the first comparison
 constexpr std::uint32_t usual_samples = 65536;
 
-// Equal bits of fewer samples prove little, because rare branches may not have been executed.
+// Equal bits of fewer samples prove little, because rare branches may not have run.
 constexpr std::uint32_t least_equal = 256;
 
 class Rendering {

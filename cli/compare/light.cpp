@@ -23,7 +23,7 @@ pt_compared_image compared_image(const TestedImage &image) {
     return compared;
 }
 
-// Returns for example "max_samples = 20: must be ...". The library's "second" becomes "the reference".
+// For example "max_samples = 20: must be ...". The library's "second" becomes "the reference".
 std::string rule_of(const LibraryError &error) {
     return error.in_words([](const BrokenRule &rule) {
         return std::string(rule.subject == "second" ? "the reference: " : "") + rule.text(rule.member);
@@ -57,7 +57,7 @@ nlohmann::ordered_json region_json(const LightVerdict &verdict, const pt_compare
             {"smallest_change", number_or_null(region.smallest_change)}};
 }
 
-// Returns the channel's difference in standard deviations that is largest.
+// The largest difference of a channel, in standard deviations.
 double signed_difference(const pt_compared_region &region) {
     double greatest = 0.0;
     for (std::size_t channel = 0; channel < 3; ++channel) {
@@ -68,7 +68,7 @@ double signed_difference(const pt_compared_region &region) {
     return greatest;
 }
 
-// Equal light is white.
+// White if the light is equal.
 std::array<std::uint8_t, 3> color_of(double z) {
     constexpr double full = 8.0;
     const auto rest = static_cast<std::uint8_t>(std::lround(255.0 * (1.0 - std::min(std::abs(z) / full, 1.0))));
@@ -123,7 +123,7 @@ nlohmann::ordered_json light_json(const LightVerdict &verdict) {
             {"regions", std::move(regions)}};
 }
 
-// Later regions are smaller and overwrite larger ones.
+// Later regions are smaller, and overwrite larger ones.
 void write_difference(const std::string &path, const LightVerdict &verdict) {
     const Rectangle &part = verdict.window.part;
     std::vector<std::uint8_t> signals(3 * part.pixel_count());

@@ -36,8 +36,8 @@ struct LightVerdict {
     bool is_decided() const { return comparison.light != PT_LIGHT_UNDECIDED; }
 };
 
-// Both images must show the same window. look: see pt_compare_info. Throws Failure(ExitCode::usage) for images that
-// cannot be tested.
+// Both images must show the same window. pt_compare_info describes `look`. Throws Failure(ExitCode::usage) for images
+// that cannot be tested.
 LightVerdict test_light(const TestedImage &first, const TestedImage &second, const LightRule &rule,
                         std::uint32_t look = 0);
 

@@ -1,4 +1,3 @@
-// `pt denoise`: denoises a picture from two films with different seeds.
 #include "cli/base/devices.h"
 #include "cli/base/file.h"
 #include "cli/base/json.h"
@@ -32,7 +31,7 @@ void check(const DenoiseOptions &options) {
     require_denoiser(options.library);
 }
 
-// Requires equal sample counts, because other films have no stated error.
+// Refuses unequal sample counts, with which a film has no stated error.
 RenderReport even_report(const std::string &path, const FilmHandle &film) {
     RenderReport report = film_report(film);
     const pt_stats &stats = report.stats;

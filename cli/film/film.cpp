@@ -34,7 +34,7 @@ std::string without_subject(const std::string &message) {
     return message.starts_with(subject) ? message.substr(subject.size()) : message;
 }
 
-// Returns a line for each difference, such as "part.ptfilm: seed = 7: must be 8, as in this context".
+// A line for each difference, such as "part.ptfilm: seed = 7: must be 8, as in this context".
 std::string film_words(const std::string &path, const LibraryError &error) {
     if (error.rules.empty())
         return path + ": " + without_subject(error.message);
@@ -46,10 +46,10 @@ void require_film(pt_result result, const std::string &path, const pt_context *c
         throw Failure(exit_code_of(result), film_words(path, last_error(context)));
 }
 
-// A fast level. Files are 6% larger than at level 1.
+// A fast level, whose files are 6% larger than at level 1.
 constexpr int compression_level = -1;
 
-// A block of at most 128 KiB takes at least 4 bytes (RFC 8878, 3.1.1.2), so a higher ratio means damage.
+// A block of at most 128 KiB takes at least 4 bytes (RFC 8878, 3.1.1.2), so files with a higher ratio are damaged.
 constexpr std::uint64_t most_ratio = 32768;
 
 [[noreturn]] void refuse(const std::string &path, const std::string &reason) {
@@ -122,7 +122,7 @@ pt_sample_range FilmHandle::hull() const {
     return hull;
 }
 
-// The library refuses to merge films with different seeds, and lists all differences.
+// Calls the library's merge, which refuses other seeds and lists all differences.
 void FilmHandle::require_same_picture(const std::string &path, std::span<const std::byte> bytes) {
     constexpr std::array<std::string_view, 4> allowed{"seed", "estimator_version", "kernel", "device"};
     const pt_result result = pt_merge_film(film_, bytes.data(), bytes.size());

@@ -19,7 +19,7 @@ public:
     FilmHandle &operator=(const FilmHandle &) = delete;
     ~FilmHandle() { pt_close_film(film_); }
 
-    // Throws Failure(ExitCode::usage), with a line for each difference, if the film does not fit.
+    // Throws Failure(ExitCode::usage) if the film does not fit, with a line for each difference.
     void merge(const std::string &path, std::span<const std::byte> bytes);
 
     pt_film_info info() const;
@@ -39,10 +39,10 @@ private:
     pt_film *film_ = nullptr;
 };
 
-// Needs at least one sample. Reuses the memory of bytes.
+// Needs at least one sample. Reuses the memory of `bytes`.
 void save_film(const Context &context, std::vector<std::byte> &bytes);
 
-// Throws like merge().
+// Throws as merge() does.
 void add_film(const Context &context, const std::string &path, std::span<const std::byte> bytes);
 
 std::string ranges_text(const std::vector<pt_sample_range> &ranges);
@@ -55,8 +55,8 @@ std::vector<pt_sample_range> missing_of(const pt_sample_range &wanted, const std
 // Packs the film and writes it atomically. Throws Failure(ExitCode::file).
 void write_film_file(const std::string &path, std::span<const std::byte> film);
 
-// Returns an unpacked film, which the library has not checked. Throws Failure: ExitCode::file for an unreadable file,
-// ExitCode::usage for damaged packing.
+// The film is unpacked, but not checked. Throws Failure: ExitCode::file for an unreadable file, ExitCode::usage for
+// damaged packing.
 std::vector<std::byte> read_film_file(const std::string &path);
 
 } // namespace cli

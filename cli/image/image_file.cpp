@@ -78,7 +78,7 @@ void check_image_target(const ImageTarget &target, const ImageWindow &window) {
         AtomicFile::check_writable(target.path);
 }
 
-// The path is relative to the program, so that an installed tree can be moved.
+// Relative to the program, so an installed tree can be moved.
 std::filesystem::path module_path() {
     const std::filesystem::path folder = platform::program_file().parent_path() / PT_MODULE_DIRECTORY;
     std::filesystem::path path = (folder / platform::module_file("pt-image-file")).lexically_normal();
@@ -149,7 +149,7 @@ DecodedImage read_image(const std::string &path) {
                             ? &decode_png
                             : reinterpret_cast<DecodeImage *>(load_symbol(module_path(), decode_image_symbol));
     DecodedImage image{};
-    read_file(path, [](const platform::InputFile &) {}); // throws if the file cannot be read
+    read_file(path, [](const platform::InputFile &) {}); // throws if the file is unreadable
     try {
         decode(path, image);
     } catch (const Failure &) {

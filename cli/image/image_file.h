@@ -18,17 +18,17 @@
 namespace cli {
 
 struct ImageFormat {
-    std::string_view name; // also the file extension
+    std::string_view name; // name and file extension
     bool is_radiance;      // linear float32 layers; other formats are tone-mapped
     bool has_alpha;
-    bool needs_module; // otherwise libpng
+    bool needs_module; // false for formats of libpng
 
-    // Checked in advance, because libjpeg ends the process for larger images.
+    // Checked in advance, because libjpeg ends the process if an image is larger.
     std::uint32_t longest_side;
 };
 
 inline constexpr std::uint32_t largest_signed = 2'147'483'647;
-inline constexpr std::uint32_t libpng_limit = 1'000'000; // its default
+inline constexpr std::uint32_t libpng_limit = 1'000'000; // libpng's default
 inline constexpr std::uint32_t libjpeg_limit = 65'500;   // JPEG_MAX_DIMENSION
 
 inline constexpr std::array<ImageFormat, 4> image_formats{{
@@ -62,7 +62,7 @@ struct ImageTarget {
     ImageFormat format;
 };
 
-// Throws Failure(ExitCode::usage) for an unknown format, standard output on a terminal, or a --format that does not
+// Throws Failure(ExitCode::usage) for an unknown format, for standard output on a terminal, or if --format does not
 // fit.
 void check_image_names(std::span<const std::string> paths, std::optional<ImageFormat> format);
 
@@ -74,7 +74,7 @@ void check_image_target(const ImageTarget &target, const ImageWindow &window);
 // Throws Failure(ExitCode::file) if the module, a separate package, is missing.
 std::filesystem::path module_path();
 
-// name: see image_module.h. The module stays loaded. Throws Failure(ExitCode::internal).
+// image_module.h has the names. The module stays loaded. Throws Failure(ExitCode::internal).
 void *load_symbol(const std::filesystem::path &path, const char *name);
 
 // Attributes become text chunks. Throws std::runtime_error.
@@ -103,7 +103,7 @@ private:
     std::vector<unsigned char> encoded(const ImageTarget &target, const ImageData &image);
 
     std::atomic<bool> failed_ = false;
-    std::shared_future<EncodeImage *> encode_; // destroyed first, because the thread uses failed_
+    std::shared_future<EncodeImage *> encode_; // destroyed first, because its thread uses failed_
 };
 
 DecodedImage read_image(const std::string &path);

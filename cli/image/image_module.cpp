@@ -19,7 +19,7 @@ std::string description(std::span<const ImageAttribute> attributes) {
     return listed(lines, "\n");
 }
 
-// Returns "R", "G", "B" for the main layer and "layer.R" for others. A single channel has the layer's name.
+// The main layer has "R", "G", "B", and others have "layer.R". A single channel has the layer's name.
 std::vector<std::string> channel_names(std::span<const ImageLayer> layers) {
     std::vector<std::string> names;
     for (const ImageLayer &layer : layers) {
@@ -62,7 +62,7 @@ OIIO::ImageSpec describe_radiance(const ImageData &image) {
     spec.full_width = static_cast<int>(full_width);
     spec.full_height = static_cast<int>(full_height);
     add_chromaticities(spec);
-    spec.attribute("DateTime", ""); // Otherwise it is the present date.
+    spec.attribute("DateTime", ""); // otherwise it is the present date
     return spec;
 }
 
@@ -83,7 +83,6 @@ void add_attributes(OIIO::ImageSpec &spec, std::span<const ImageAttribute> attri
             spec.attribute(name, static_cast<float>(std::get<double>(value)));
 }
 
-// Copies the bits of all layers, channel by channel.
 void interleave_row(const ImageData &image, std::uint32_t y, std::span<std::uint32_t> row) {
     const std::size_t width = image.window.part.width;
     const std::size_t stride = row.size() / width;
@@ -105,7 +104,7 @@ void interleave_row(const ImageData &image, std::uint32_t y, std::span<std::uint
 bool write_layers(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec, const ImageData &image) {
     std::vector<std::uint32_t> row(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.nchannels));
     const OIIO::TypeDesc type =
-        spec.channelformats.empty() ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UNKNOWN; // each channel's own type
+        spec.channelformats.empty() ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UNKNOWN; // the type of each channel
     for (std::uint32_t y = 0; y < image.window.part.height; ++y) {
         interleave_row(image, y, row);
         if (!output.write_scanline(spec.y + static_cast<int>(y), 0, type, row.data()))

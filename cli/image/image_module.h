@@ -1,5 +1,5 @@
-// Interface to libpt-image-file.so. Only this module links OpenImageIO, which would load 261 shared objects in 0.2 s.
-// The module is built with the program, so the interface may have C++ types. Failures are std::runtime_error.
+// The interface of libpt-image-file.so. Only this module links OpenImageIO, which would load 261 shared objects in 0.2
+// s. Program and module are built together, so the interface may have C++ types. Failures are std::runtime_error.
 #pragma once
 
 #include "cli/base/number.h"
@@ -18,7 +18,7 @@
 
 namespace cli {
 
-// Pixels; x and y count from the top left.
+// In pixels from the top left.
 struct Rectangle {
     std::uint32_t x;
     std::uint32_t y;
@@ -63,7 +63,7 @@ inline std::string window_text(const ImageWindow &window) {
 
 struct ImageAttribute {
     std::string name;
-    std::variant<std::string, std::int32_t, double> value; // float32 in a file
+    std::variant<std::string, std::int32_t, double> value; // doubles are float32 in a file
 };
 
 inline std::string attribute_text(const ImageAttribute &attribute) {
@@ -88,12 +88,12 @@ struct ImageLayer {
     std::span<const std::uint32_t> numbers = {}; // only for LayerKind::numbers
 };
 
-// Has either layers of radiance or signals.
+// Has layers of radiance, or signals.
 struct ImageData {
     ImageWindow window;
     std::span<const ImageLayer> layers = {};
-    std::span<const std::uint8_t> signals = {}; // R, G, B of each pixel; for PNG also R, G, B, A, not premultiplied
-    std::optional<double> gamma = {};           // exponent from signal to light, for PNG; empty: sRGB
+    std::span<const std::uint8_t> signals = {}; // for each pixel R, G, B; in PNG also R, G, B, A, not premultiplied
+    std::optional<double> gamma = {};           // for PNG, the exponent from signal to light; empty for sRGB
     std::span<const ImageAttribute> attributes = {};
 
     bool has_alpha() const { return signals.size() == 4 * window.part.pixel_count(); }
@@ -114,7 +114,7 @@ struct DecodedImage {
     std::vector<float> values; // pixel by pixel, from the top left
     std::vector<ImageAttribute> attributes;
 
-    // Returns three values per pixel. A single channel is repeated. An empty name is the main layer. Throws
+    // Three values per pixel. A single channel is repeated. An empty name means the main layer. Throws
     // Failure(ExitCode::file) if there is no such layer.
     std::vector<float> layer(const std::string &name) const;
 };

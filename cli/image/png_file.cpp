@@ -59,21 +59,21 @@ struct Encoding {
     }
 };
 
-// Text chunks are Latin-1, international ones UTF-8. The result points into both arguments.
+// Text chunks are Latin-1, and international ones UTF-8. The result points into both arguments.
 std::vector<png_text> texts_of(const ImageData &image, std::span<std::string> values) {
     std::vector<png_text> texts;
     for (std::size_t i = 0; i < values.size(); ++i) {
         const bool is_ascii = std::ranges::all_of(values[i], [](unsigned char byte) { return byte < 0x80; });
         png_text text{};
         text.compression = is_ascii ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE;
-        text.key = const_cast<char *>(image.attributes[i].name.c_str()); // libpng does not change it.
+        text.key = const_cast<char *>(image.attributes[i].name.c_str()); // libpng does not change the text
         text.text = values[i].data();
         texts.push_back(text);
     }
     return texts;
 }
 
-// Sets sRGB, or a power with Rec. 709's primaries (ITU-R BT.709, table 1); PNG, ISO 15948, 11.3.3.
+// sRGB, or a power with Rec. 709's primaries (ITU-R BT.709, table 1). PNG, ISO 15948, 11.3.3.
 void set_color_space(const Encoding &encoding, std::optional<double> gamma) {
     if (!gamma) {
         png_set_sRGB_gAMA_and_cHRM(encoding.png, encoding.info, PNG_sRGB_INTENT_PERCEPTUAL);
@@ -86,12 +86,12 @@ void set_color_space(const Encoding &encoding, std::optional<double> gamma) {
 std::vector<png_bytep> rows_of(const ImageData &image) {
     std::vector<png_bytep> rows(image.window.part.height);
     const std::size_t row_bytes = image.signals.size() / rows.size();
-    for (std::size_t y = 0; y < rows.size(); ++y) // libpng does not change them.
+    for (std::size_t y = 0; y < rows.size(); ++y) // libpng does not change the rows
         rows[y] = const_cast<png_bytep>(&image.signals[y * row_bytes]);
     return rows;
 }
 
-// Contains no objects with destructors, because a long jump would skip them.
+// A long jump would skip destructors, so no object here has one.
 bool write(Encoding &encoding, const ImageData &image, std::span<png_text> texts, png_bytepp rows) {
     if (setjmp(png_jmpbuf(encoding.png)) != 0) // NOLINT(cert-err52-cpp): libpng reports errors by long jumps
         return false;
@@ -99,7 +99,7 @@ bool write(Encoding &encoding, const ImageData &image, std::span<png_text> texts
                  image.has_alpha() ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     set_color_space(encoding, image.gamma);
-    // Noisy pictures are as small as with the defaults, in a third of the time.
+    // With this filter noisy pictures are as small as by default, in a third of the time.
     png_set_filter(encoding.png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
     png_set_compression_level(encoding.png, 4);
     png_set_text(encoding.png, encoding.info, texts.data(), static_cast<int>(texts.size()));
@@ -169,7 +169,7 @@ void decode_png(const std::string &path, DecodedImage &image) {
     const std::string file = read_file(path, [](platform::InputFile &input) {
         const std::string head(input.first(signature_size));
         const bool is_png = png_sig_cmp(reinterpret_cast<png_const_bytep>(head.data()), 0, head.size()) == 0;
-        return is_png ? input.all() : head; // libpng refuses the file.
+        return is_png ? input.all() : head; // libpng then refuses the file
     });
     Decoding decoding(std::as_bytes(std::span(file)));
     if (!read(decoding))

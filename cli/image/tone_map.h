@@ -1,4 +1,3 @@
-// Pixels of displays, by the library.
 #pragma once
 
 #include "cli/image/image_file.h"
@@ -14,7 +13,7 @@
 
 namespace cli {
 
-// Its exposure is known.
+// The exposure is a known number.
 struct ToneMap {
     pt_display_info display;
     bool is_automatic = false;
@@ -28,16 +27,14 @@ double automatic_exposure(std::span<const float> radiance);
 std::vector<std::uint8_t> map_to_bytes(std::span<const float> radiance, const ToneMap &map,
                                        std::span<const float> alpha = {});
 
-// null if there is none.
 nlohmann::ordered_json tone_map_json(const std::optional<ToneMap> &tone_map);
 
 void add_tone_map(std::vector<ImageAttribute> &attributes, const ToneMap &tone_map);
 
-// Empty for a fixed exposure.
 std::string automatic_exposure_line(const std::optional<ToneMap> &tone_map);
 
-// radiance: R, G, B, non-negative, multiplied by alpha. alpha: one number per pixel, or empty. After a failure an
-// existing file is unchanged. Throws Failure(ExitCode::file).
+// `radiance` has R, G, B, not negative, multiplied by alpha. `alpha` has one number per pixel, or is empty. After a
+// failure an existing file is unchanged. Throws Failure(ExitCode::file).
 void write_display_image(ImageWriter &writer, const ImageTarget &target, ImageData image,
                          std::span<const float> radiance, const ToneMap &tone_map, std::span<const float> alpha = {});
 

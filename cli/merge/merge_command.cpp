@@ -1,4 +1,3 @@
-// `pt merge`: adds films of one picture.
 #include "cli/base/devices.h"
 #include "cli/base/file.h"
 #include "cli/base/json.h"
@@ -24,7 +23,7 @@ using Ranges = std::vector<pt_sample_range>;
 struct MergeOptions {
     std::vector<std::string> parts;
 
-    // Expected samples. By default they reach from the films' first sample to their last.
+    // Expected samples. The default is the whole range from the films' first to their last sample.
     std::optional<std::uint32_t> first_sample;
     std::optional<std::uint32_t> sample_count;
 
@@ -50,7 +49,7 @@ void check(const MergeOptions &options) {
     check_names(output, parts);
 }
 
-// Reads all parts before it fails, to report all faults.
+// To report all faults, reads all parts before it fails.
 std::unique_ptr<FilmHandle> sum_of(const std::vector<std::string> &parts) {
     std::unique_ptr<FilmHandle> sum;
     std::optional<ExitCode> failed;
@@ -191,7 +190,7 @@ void add_merge_command(CLI::App &program, Run &chosen) {
     command.add_option("PART", options.parts, "Films of one picture (pt render --film or --checkpoint), in any order")
         ->required()
         ->type_name("PART");
-    constexpr std::size_t film_layers = 3; // Films have no first hits.
+    constexpr std::size_t film_layers = 3; // films have no first hits
     add_output_options(command, options.output, file_layers.names().first(film_layers));
     command.option_defaults()->group("Samples");
     add_number<std::uint32_t>(command, "--first-sample", natural_number, options.first_sample,

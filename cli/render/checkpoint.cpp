@@ -10,7 +10,7 @@
 namespace cli {
 namespace {
 
-// A run takes its samples in order, so a checkpoint must have the first ones.
+// A run takes samples in order, so a checkpoint must have the first ones.
 void require_first_samples(const std::string &path, const std::vector<pt_sample_range> &ranges,
                            const RenderTask &task) {
     const std::uint64_t first = task.render.first_sample;
@@ -44,8 +44,8 @@ bool Checkpoint::finish(std::uint32_t sample_count) {
     return sample_count > 0 && sample_count == written_count_;
 }
 
-// The writing of checkpoints ends one interval apart, so at most an interval's samples can be lost. The device waits
-// only while the film is copied.
+// A new writing begins so that it ends an interval after the previous one. At most an interval's samples can then be
+// lost. The device waits only while the film is copied.
 void Checkpoint::save(std::uint32_t sample_count) {
     take_in();
     saved_at_ = Clock::now();

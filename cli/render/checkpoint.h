@@ -19,7 +19,7 @@ public:
 
     bool is_due() const { return Clock::now() >= due_ && !task_.is_under_way(); }
 
-    // sample_count: mean over pixels.
+    // `sample_count` is the mean over pixels.
     void step(std::uint32_t sample_count);
 
     // Writes the last samples and waits. Returns whether the file has all samples.
@@ -40,7 +40,7 @@ private:
     Clock::time_point due_;
     Clock::time_point saved_at_;
     std::chrono::duration<double> write_time_{0};
-    std::uint32_t saved_count_ = 0;   // samples in the latest film, which may still be being written
+    std::uint32_t saved_count_ = 0;   // samples in the latest film, which may not be written yet
     std::uint32_t written_count_ = 0; // samples in the file
     bool has_told_failure_ = false;
     std::vector<std::byte> film_;
@@ -48,7 +48,7 @@ private:
 };
 
 // Must follow pt_set_render. Returns the added samples per pixel, 0 without a file. Throws Failure(ExitCode::usage),
-// with the differences, for a checkpoint of another picture or with unwanted samples.
+// with the differences, if the checkpoint has another picture or unwanted samples.
 std::uint32_t resume(const Context &context, const RenderTask &task);
 
 } // namespace cli

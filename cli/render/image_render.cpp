@@ -22,7 +22,7 @@ std::chrono::steady_clock::duration clock_duration(double seconds) {
 }
 
 pt_render piece_of(const RenderTask &task, std::uint32_t half, std::uint32_t first_row, std::uint32_t rows) {
-    constexpr std::uint64_t other_seed = std::uint64_t{1} << 63; // as in the Python package, for the same bits
+    constexpr std::uint64_t other_seed = std::uint64_t{1} << 63; // as in the Python package
     const Rectangle &part = task.window.part;
     pt_render piece = task.render;
     piece.seed ^= half * other_seed;
@@ -31,7 +31,7 @@ pt_render piece_of(const RenderTask &task, std::uint32_t half, std::uint32_t fir
     return piece;
 }
 
-// Averages error bounds as if they were fully correlated.
+// Averages error bounds as if the errors were fully correlated.
 void join(RenderedImage &image, const pt_stats &piece, const pt_error_estimate &error, std::uint32_t rows) {
     if (image.rows_done == 0) {
         image.stats = piece;
@@ -47,7 +47,7 @@ void join(RenderedImage &image, const pt_stats &piece, const pt_error_estimate &
     whole.mean_sample_count = mean(whole.mean_sample_count, piece.mean_sample_count);
     whole.rejected_samples += piece.rejected_samples;
     whole.device_bytes = std::max(whole.device_bytes, piece.device_bytes);
-    whole.submit_count = piece.submit_count; // total of the context
+    whole.submit_count = piece.submit_count; // counts all pieces of the context
     whole.device_seconds = piece.device_seconds;
     image.error.uncertain |= error.uncertain;
     using Error = pt_error_estimate;
@@ -150,7 +150,7 @@ void ImageRender::enter_piece() {
     const double halves = task_.half_count();
     const double other = static_cast<double>(round_.other) / round_.expected;
     progress_.enter_part((other + image_.rows_done / height) / halves, (other + end) / halves);
-    if (has_target()) // up to the next check
+    if (has_target()) // takes samples up to the next check
         progress_.expect(forecast_sample_count(context_.stats().sample_count, 1.0, 1.0, task_.sample_count));
     stopping_.enter_piece(end);
 }
@@ -163,20 +163,20 @@ void ImageRender::render_piece() {
     bool ended = done.sample_count >= round_.end;
     while (!ended && !stops()) {
         const std::uint32_t before = done.max_sample_count;
-        std::uint32_t length = std::min(wanted, round_.end - before); // 0 completes pixels that lack samples.
+        std::uint32_t length = std::min(wanted, round_.end - before); // 0 completes pixels that lack samples
         if (has_target())
             length = std::min(length, std::max(first_end, 2 * std::bit_floor(before)) - before);
         const Clock::time_point start = Clock::now();
         const pt_result result = take(length, done.mean_sample_count);
         const double seconds = seconds_between(start, Clock::now());
         done = look(result);
-        if (done.max_sample_count > before) // Otherwise the duration says nothing.
+        if (done.max_sample_count > before) // without new samples the duration says nothing
             wanted = next_step_length(done.max_sample_count - before, seconds);
         ended = has_ended(result, done);
     }
 }
 
-// done: mean samples per pixel before the step.
+// `done` is the mean of samples per pixel before the step.
 pt_result ImageRender::take(std::uint32_t length, double done) {
     std::function<bool(double)> goes_on = [&](double fraction) {
         const double taken = fraction * std::max(length, 1U);
@@ -200,7 +200,7 @@ bool ImageRender::has_ended(pt_result result, const pt_stats &done) const {
     return result == PT_TARGET_REACHED || (result == PT_OK && done.max_sample_count >= round_.end);
 }
 
-// An error estimate reads the whole image, so estimates for progress alone may take 1% of the time.
+// An error estimate reads the whole image. If only progress needs it, estimates take at most 1% of the time.
 pt_stats ImageRender::look(pt_result result) {
     constexpr double share = 0.01;
     const Clock::time_point start = Clock::now();
@@ -223,7 +223,7 @@ pt_stats ImageRender::look(pt_result result) {
     return done;
 }
 
-// Each check of a target error corrects the expected total.
+// The expected total is corrected at each check of a target error.
 void ImageRender::show(const pt_stats &done, bool ended, const std::optional<pt_error_estimate> &error,
                        Clock::time_point now) {
     const auto sample_count = static_cast<std::uint32_t>(std::lround(done.mean_sample_count));

@@ -1,4 +1,4 @@
-// Takes an image's samples in steps, between which are progress, previews and checkpoints. If the device lacks memory,
+// Takes an image's samples in steps. Progress, previews and checkpoints come between steps. If the device lacks memory,
 // it renders pieces of rows. Neither steps nor pieces change the bits.
 #pragma once
 
@@ -31,21 +31,21 @@ inline std::uint32_t next_step_length(std::uint32_t length, double seconds) {
     return static_cast<std::uint32_t>(std::clamp(wanted, double{first_step_length}, most));
 }
 
-// Whether to end because of a signal or a changed source. Once true, it stays true.
+// Whether to end because of a signal or a changed source. Stays true once it is.
 using Stop = std::function<bool()>;
 
-// Calls pt_set_render for the first piece. Returns the rows of a piece: the option's, or all, halved until they fit
-// into the device's memory. Throws Failure.
+// Calls pt_set_render for the first piece. Returns the number of rows of a piece: the option's, or all rows, halved
+// until they fit into the device's memory. Throws Failure.
 std::uint32_t fit_pieces(const Context &context, const RenderTask &task);
 
 ProgressStyle progress_style(const RenderOptions &options);
 
 class ImageRender {
 public:
-    // Called in a thread. After it returns false, only SIGUSR1 requests previews.
+    // Runs in a thread. After it returns false, only SIGUSR1 requests previews.
     using WritePreview = std::function<bool(const RenderedImage &)>;
 
-    // rows: result of fit_pieces(). The time limit begins now.
+    // `rows` is the result of fit_pieces(). The time limit begins now.
     ImageRender(const Context &context, const RenderTask &task, std::uint32_t rows, Stop stop,
                 WritePreview write_preview);
 
@@ -55,17 +55,17 @@ public:
         bool has_checkpoint;
     };
 
-    // A whole picture, or one half of a denoised picture in one round.
+    // A whole picture, or one round of one half of a denoised picture.
     struct Round {
-        std::uint32_t half;                    // index of the half; only the second half's first round reads layers
+        std::uint32_t half;                    // only the last half's first round reads layers
         std::uint32_t end;                     // samples of this half at the end of the round
         std::uint32_t other;                   // samples of the other half
         std::uint32_t expected;                // samples of a half after all rounds
-        std::vector<std::byte> *film{nullptr}; // the half's film: read before the round, updated after it
+        std::vector<std::byte> *film{nullptr}; // film of the half, read before the round and updated after it
     };
 
-    // Renders whole rows and reads the window's columns. The context's samples belong to the first piece. All files are
-    // complete on return. Throws Failure.
+    // Renders whole rows and reads the window's columns. The samples of the context belong to the first piece. On
+    // return all files are complete. Throws Failure.
     Result run(const Round &round);
 
 private:
@@ -89,7 +89,7 @@ private:
     const RenderTask &task_;
     std::uint32_t rows_;
     Stop stop_;
-    WritePreview write_preview_; // empty for halves, and for frames: an existing file means a finished frame
+    WritePreview write_preview_; // empty for halves, and for frames, where an existing file means a finished frame
     Clock::time_point start_ = Clock::now();
     Progress progress_;
     Round round_{};
@@ -97,7 +97,7 @@ private:
     std::uint32_t piece_rows_ = 0;
 
     Clock::time_point next_error_;
-    StoppingTest stopping_; // no rules for a half
+    StoppingTest stopping_; // has no rules for a half
     Clock::time_point last_preview_ = start_;
     std::atomic<bool> has_preview_failed_ = false;
     RenderedImage preview_{};

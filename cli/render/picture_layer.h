@@ -36,23 +36,23 @@ struct PictureLayer {
 
     PictureLayer(std::uint32_t of_quantity, std::size_t pixel_count);
 
-    // triples: three values per pixel from the library.
+    // `triples` are the library's three values per pixel.
     void take(std::span<const float> triples, std::size_t first_pixel);
 
     void read(const Context &context, const Rectangle &part, std::uint32_t first_row, std::uint32_t rows);
 
-    // The result refers to this object.
+    // Points into this object.
     ImageLayer in_file() const;
 };
 
 struct RenderedImage {
     Rectangle part;
     std::vector<float> radiance{}; // black below rows_done
-    std::vector<float> raw{};      // mean of the samples, for denoised pictures
+    std::vector<float> raw{};      // mean of the samples before denoising
     std::vector<PictureLayer> layers{};
     std::uint32_t rows_done = 0; // rows with samples
-    pt_stats stats{};            // of these rows
-    pt_error_estimate error{};   // of these rows
+    pt_stats stats{};            // of the rows done
+    pt_error_estimate error{};   // of the rows done
 };
 
 } // namespace cli

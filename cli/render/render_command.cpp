@@ -40,7 +40,7 @@ RenderOptions options_of_frame(const RenderOptions &options, std::uint32_t frame
     return numbered;
 }
 
-// Files are written atomically, so an existing file is complete.
+// Files are written atomically, so a file that exists is complete.
 bool is_done(const OutputOptions &frame) {
     return std::ranges::all_of(outputs_of(frame), [](const NamedFile &file) {
         std::error_code ignored;
@@ -77,7 +77,7 @@ public:
     }
 
 private:
-    // Each frame has its own seed. Equal noise in all frames would look like a pattern on the screen.
+    // Each frame has its own seed, because equal noise in all frames would look like a fixed pattern.
     RenderTask task_of(const RenderOptions &options, std::uint32_t frame) const {
         RenderTask task(options, with_exit_code([&] { return pt::scene_in_frame(scene_, frame); }));
         task.load();

@@ -24,14 +24,14 @@ struct RenderTimes {
     std::chrono::steady_clock::time_point create_start{};
 };
 
-// A signal ends the rendering early and keeps the samples. superseded() ends it without writing. Throws Failure.
+// A signal ends the rendering early and keeps the samples. If superseded() is true, nothing is written. Throws Failure.
 ExitCode render_picture(const Context &context, const RenderTask &task, const RenderTimes &times,
                         const Stop &superseded);
 
 // Returns the exit code. Throws Failure.
 int run_render(const RenderOptions &options);
 
-// Counts validation messages. Each shows a mistake of the program or the library.
+// Counts validation messages, which show mistakes of the program or the library.
 struct ValidationLog {
     std::uint64_t count = 0;
 
@@ -45,7 +45,7 @@ struct ValidationLog {
 
 pt_create_info render_create_info(const RenderOptions &options, ValidationLog &log);
 
-// Renders again on one context whenever a source changes, until a signal. Returns 0 for a signal during a wait. Throws
+// Renders again on one context whenever a source changes, until a signal. A signal while it waits gives 0. Throws
 // Failure if no edit of a source could help.
 int render_watched(const RenderOptions &options, ValidationLog &log);
 

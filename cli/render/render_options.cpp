@@ -18,7 +18,6 @@
 namespace cli {
 namespace {
 
-// Leaves out radiance.
 std::vector<std::uint32_t> parse_layers(const std::string &text, std::span<const std::string_view> known) {
     const ValueRule rule{.form = ValueRule::Form::name, .kind = "layer", .names = known};
     std::vector<std::uint32_t> quantities;
@@ -34,7 +33,7 @@ std::vector<std::uint32_t> parse_layers(const std::string &text, std::span<const
     return quantities;
 }
 
-// parse: returns an optional. rule: text for messages.
+// parse() returns an optional. Messages state `rule`.
 template <typename Target, typename Parse>
 CLI::Option *add_parsed(CLI::App &command, const std::string &name, Target &target, Parse parse,
                         const std::string &rule, const std::string &help) {

@@ -47,8 +47,8 @@ inline std::optional<std::string> numbered_name(const std::string &pattern, std:
 struct OutputOptions {
     std::vector<std::string> images;
     std::optional<ImageFormat> format; // for standard output
-    std::vector<std::uint32_t> layers; // PT_QUANTITY_* beside the radiance in .exr files
-    std::string film;                  // empty: no film
+    std::vector<std::uint32_t> layers; // PT_QUANTITY_* in .exr files besides the radiance
+    std::string film;                  // empty for no film
     std::string stats;
     bool quiet = false;
 
@@ -67,7 +67,7 @@ void for_each_output(Options &options, Use use) {
 
 void add_image_outputs(CLI::App &command, OutputOptions &options);
 
-// layers: names of the permitted layers.
+// `layers` are the permitted names.
 void add_output_options(CLI::App &command, OutputOptions &options, std::span<const std::string_view> layers);
 
 void add_format(CLI::App &command, std::optional<ImageFormat> &format, std::span<const std::string_view> names);
@@ -77,27 +77,27 @@ struct RenderOptions {
     std::vector<SceneOverride> overrides;
     OutputOptions output;
     bool alpha = false;
-    std::string denoiser; // file of the library; empty: no denoising
+    std::string denoiser; // file of the library; empty for no denoising
     std::optional<Rectangle> crop;
 
     StoppingRules stopping;
     std::uint32_t sampling = PT_SAMPLING_BEST;
     std::uint32_t first_sample = 0;
 
-    std::string checkpoint; // empty: no checkpoint
+    std::string checkpoint; // empty for no checkpoint
     bool resume = false;
-    std::optional<double> checkpoint_seconds; // default: 30
-    std::optional<double> preview_seconds;    // empty: previews only after SIGUSR1
+    std::optional<double> checkpoint_seconds; // 30 by default
+    std::optional<double> preview_seconds;    // empty for previews only after SIGUSR1
 
     std::optional<FrameRange> frames;
     bool skip_existing = false;
 
     std::string device;
-    std::uint32_t submit_milliseconds = 0; // 0: the library's default
-    std::uint32_t piece_rows = 0;          // 0: as many as fit
+    std::uint32_t submit_milliseconds = 0; // 0 for the library's default
+    std::uint32_t piece_rows = 0;          // 0 for as many as fit
     bool validation = false;
 
-    std::string shader_dir; // empty: the library's kernels
+    std::string shader_dir; // empty for the library's kernels
     bool watch = false;
     std::string progress = "auto";
 

@@ -90,7 +90,7 @@ void check_denoise(const RenderOptions &options) {
               "whole picture alone");
 }
 
-// Protects a checkpoint that this run does not continue. A failed writing does not end a rendering.
+// A checkpoint that this run does not continue is protected. A failed writing does not end a rendering.
 void check_checkpoint(const RenderOptions &options) {
     if (options.checkpoint.empty())
         return;

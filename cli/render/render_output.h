@@ -16,13 +16,13 @@ namespace cli {
 
 std::vector<NamedFile> outputs_of(const OutputOptions &options, const std::string &checkpoint = "");
 
-// Throws Failure(ExitCode::usage) for contradicting options, unknown formats, and outputs that are also sources or
-// other outputs.
+// Throws Failure(ExitCode::usage) for options that contradict each other, unknown formats, and outputs that are also
+// sources or other outputs.
 void check_names(const RenderOptions &options);
 
 void check_names(const OutputOptions &options, const std::vector<NamedFile> &sources);
 
-// Throws Failure for an image too large for its format and, if names are known, for an unwritable file.
+// Throws Failure if an image is too large for its format, or if a known name cannot be written.
 void check_files(const OutputOptions &options, const ImageWindow &window);
 
 void check_outputs(const RenderTask &task);

@@ -38,7 +38,7 @@ bool take_scene(const Context &context, const RenderTask &task, const Stop &supe
     });
 }
 
-// A film holds only one piece, so the outputs that need a film need a single piece.
+// A film holds only one piece, so outputs from the film need a single piece.
 void require_one_piece(const RenderTask &task, std::uint32_t rows) {
     const RenderOptions &options = task.options;
     const std::string option = !options.checkpoint.empty()    ? "--checkpoint"
@@ -68,7 +68,7 @@ std::string ending_of(const RenderReport &report, const ImageRender::Result &ren
     return interrupted ? "signal" : rendered.ended_by.value_or(report.target_reached() ? "error" : "samples");
 }
 
-// Assumes that no signal came. A missing file takes precedence over missing samples, which a checkpoint can supply.
+// Signals are judged elsewhere. A missing file takes precedence over missing samples, which a checkpoint can supply.
 ExitCode outcome_of(const RenderReport &report, const ImageRender::Result &rendered, bool all_written) {
     if (!all_written)
         return ExitCode::file;
@@ -129,7 +129,7 @@ RenderedImage denoised_halves(const RenderOptions &options, const RenderedImage 
 }
 
 // If a rule may end the rendering, both halves grow by a half in each round, as in the Python package. Denoising each
-// round gives its error. After a stop the last round's picture remains.
+// round gives its error. After a stop the picture of the last round remains.
 ImageRender::Result render_halves(const RenderTask &task, ImageRender &render, const Stop &stop) {
     constexpr double growth = 1.5;
     const Clock::time_point start = Clock::now();
@@ -209,7 +209,7 @@ ExitCode render_picture(const Context &context, const RenderTask &task, const Re
         print_pieces(context, task, rows);
     report.create_seconds = seconds_since(times.create_start);
 
-    // Drivers would wait while the module is loading.
+    // Created first, so that drivers do not wait for the loading module.
     ImageWriter writer;
     if (needs_module(options.output))
         writer.load_module();
@@ -220,7 +220,7 @@ ExitCode render_picture(const Context &context, const RenderTask &task, const Re
         so_far.error = image.error;
         so_far.tone_map = tone_map_of(task, image.radiance);
         writer.wait();
-        const OutputOptions files = without_standard_output(options.output); // Standard output takes only one image.
+        const OutputOptions files = without_standard_output(options.output); // standard output takes only one image
         return write_images(writer, files, so_far, image).size() == files.images.size();
     };
     const Stop stop = [&] { return interrupt_signal() != 0 || writer.failed() || superseded(); };

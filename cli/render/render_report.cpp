@@ -33,7 +33,7 @@ nlohmann::ordered_json crop_json(const ImageWindow &window) {
 }
 
 double samples_per_second(const RenderReport &report) {
-    const double pixels = static_cast<double>(report.render.width) * report.window.part.height; // whole rows
+    const double pixels = static_cast<double>(report.render.width) * report.window.part.height; // counts whole rows
     return report.accumulate_seconds > 0.0 ? pixels * report.stats.mean_sample_count / report.accumulate_seconds : 0.0;
 }
 
@@ -59,7 +59,7 @@ std::string estimate_text(const RenderReport &report) {
            percent_text(error.relative_rmse_high) + ")" + uncertainty_text(error.uncertain);
 }
 
-// Returns "64", or "37.3 (16 to 256)" if pixels differ.
+// "64", or "37.3 (16 to 256)" if pixels differ.
 std::string samples_text(const pt_stats &stats) {
     if (stats.sample_count == stats.max_sample_count)
         return std::to_string(stats.sample_count);
@@ -159,7 +159,7 @@ std::string error_text(const RenderReport &report) {
     return estimate_text(report) + (report.target_error > 0.0 ? "; " + target_text(report) : "");
 }
 
-// There is no date, so equal runs give equal files. Numbers beyond OpenEXR's int32 are texts.
+// Without a date, equal runs give equal files. Numbers beyond OpenEXR's int32 are texts.
 std::vector<ImageAttribute> image_metadata(const RenderReport &report, const ToneMap *tone_map) {
     std::vector<ImageAttribute> attributes;
     const auto add = [&](const char *name, auto value) { attributes.push_back({name, std::move(value)}); };

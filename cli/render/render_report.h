@@ -21,8 +21,8 @@ struct RenderReport {
     std::string scene;
     pt_render render;
     ImageWindow window;
-    std::uint32_t requested_sample_count; // maximum, if there is a target error
-    double target_error;                  // 0: none
+    std::uint32_t requested_sample_count; // the most, if there is a target error
+    double target_error;                  // 0 for none
     pt_stats stats;
     pt_error_estimate error;
     pt_device_info device;
@@ -31,7 +31,7 @@ struct RenderReport {
     double accumulate_seconds;
     double total_seconds;
     std::optional<ToneMap> tone_map;
-    std::string ended_by; // "samples", "error", "signal", or a result of StoppingTest
+    std::string ended_by; // "samples", "error", "signal", or StoppingTest's result
     std::vector<std::string> warnings;
 
     bool target_reached() const { return target_error > 0.0 && error.relative_rmse_high <= target_error; }
@@ -46,10 +46,10 @@ nlohmann::ordered_json error_json(const pt_error_estimate &error);
 
 std::string summary_text(const RenderReport &report);
 
-// Returns for example "error 0.42% (0.40% to 0.44%); target reached after 64 samples".
+// For example "error 0.42% (0.40% to 0.44%); target reached after 64 samples".
 std::string error_text(const RenderReport &report);
 
-// tone_map: nullptr for radiance.
+// `tone_map` is nullptr for radiance.
 std::vector<ImageAttribute> image_metadata(const RenderReport &report, const ToneMap *tone_map);
 
 } // namespace cli

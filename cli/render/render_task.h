@@ -10,15 +10,15 @@ namespace cli {
 
 struct RenderTask {
     RenderOptions options;
-    SceneFile scene;            // without files of columns until load()
+    SceneFile scene;            // load() adds the files of columns
     pt_render render;           // settings of the whole picture
     ImageWindow window;         // part to render
-    std::uint32_t sample_count; // samples of each half, or their maximum if a rule may end the rendering
+    std::uint32_t sample_count; // of each half; the most, if a rule may end the rendering
 
     // Throws Failure for an impossible crop or number of samples.
     RenderTask(RenderOptions chosen, SceneFile file);
 
-    // Reads files of columns. Throws Failure, also if such a file is an output.
+    // Reads files of columns. Throws Failure, also if a column's file is an output.
     void load();
 
     // Whether denoised halves grow until a rule is satisfied.
@@ -27,7 +27,7 @@ struct RenderTask {
     std::uint32_t half_count() const { return options.denoiser.empty() ? 1 : 2; }
 };
 
-// Throws Failure if the images exceed the memory of any process on this machine.
+// Throws Failure if the images need more memory than a process on this machine can have.
 void require_host_memory(const RenderTask &task);
 
 std::uint64_t image_bytes(const RenderTask &task);
@@ -35,10 +35,10 @@ std::uint64_t image_bytes(const RenderTask &task);
 // Throws Failure and names the option, or the place in the file, that set the refused argument.
 void require(const Context &context, const RenderTask &task, pt_result result);
 
-// A pt_progress_fn. user: a std::function<bool(double)>.
+// A pt_progress_fn whose `user` is a std::function<bool(double)>.
 std::int32_t call_listener(void *user, double share);
 
-// Sets scene and camera. Returns false, with an unchanged context, when goes_on(share) returns false. Throws Failure.
+// Sets scene and camera. If goes_on(share) returns false, returns false with an unchanged context. Throws Failure.
 bool describe_scene(const Context &context, const SceneFile &file, const std::function<bool(double)> &goes_on);
 
 } // namespace cli

@@ -17,7 +17,7 @@
 namespace cli {
 namespace {
 
-// Longest delay of a signal that comes just before a wait.
+// Signals that come just before a wait are late by at most this.
 constexpr std::chrono::milliseconds patience{200};
 
 // Pipes can be read only once.
@@ -54,10 +54,10 @@ public:
     }
 
 private:
-    // The end of a waiting watch is a success.
+    // A signal that ends a waiting watch means success.
     int exit_code() const { return exit_code_of(outcome_, outcome_ == ExitCode::signal ? interrupt_signal() : 0); }
 
-    // Waits for an edit after a failure that an edit can repair. Edited shaders may lose the device, so the next
+    // After a failure that an edit can repair, waits for the edit. Edited shaders may lose the device, so the next
     // picture gets a new context.
     void render_or_tell() {
         outcome_ = ExitCode::done;
@@ -93,7 +93,7 @@ private:
             edited_.clear();
     }
 
-    // Creating it takes longer than most renderings.
+    // A context takes longer than most renderings.
     void refresh_context() {
         if (!context_) {
             context_.emplace(render_create_info(options_, log_));

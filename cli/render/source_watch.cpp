@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 constexpr std::chrono::milliseconds interval{100};
 constexpr std::chrono::milliseconds settling{50};
 
-// Two changes within one tick of the file's time cannot be distinguished.
+// Within one tick of the file's time, a second change would not be visible.
 bool is_fresh(const fs::path &path) {
     std::error_code error;
     const fs::file_time_type written = fs::last_write_time(path, error);

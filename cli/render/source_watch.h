@@ -10,13 +10,12 @@
 
 namespace cli {
 
-// Includes subfolders. Empty without a folder name.
 std::set<std::filesystem::path> shader_files(const std::filesystem::path &shader_dir);
 
 // The contents of a missing file are empty.
 using SourceFiles = std::map<std::filesystem::path, std::optional<std::string>>;
 
-// Polls ten times a second, which also finds changes by other machines.
+// Polls ten times a second. Polling also finds changes by other machines.
 class SourceWatch {
 public:
     SourceWatch(std::filesystem::path scene, std::filesystem::path shader_dir);
@@ -24,12 +23,12 @@ public:
     // Must precede the first use of the files.
     void begin();
 
-    // Data files may exceed the memory, so only their state is kept.
+    // Only the state of data files is kept, because the contents may exceed the memory.
     void follow(const std::set<std::filesystem::path> &data);
 
     bool has_data() const { return !data_.empty(); }
 
-    // Waits for changed and stable contents (saving takes several steps), a signal, or the timeout.
+    // Waits for a signal, the timeout, or changed contents. These must be stable, because saving takes several steps.
     bool changed(std::chrono::milliseconds timeout);
 
     std::vector<std::string> changed_names() const;
@@ -48,7 +47,7 @@ private:
     std::filesystem::path scene_;
     std::filesystem::path shader_dir_;
     std::set<std::filesystem::path> data_;
-    std::map<std::filesystem::path, Kept> kept_; // read again if the file's state changed
+    std::map<std::filesystem::path, Kept> kept_; // read again if a file's state has changed
     SourceFiles begun_;
     SourceFiles seen_;
     Clock::time_point seen_since_;

@@ -15,7 +15,7 @@
 namespace cli {
 
 struct StoppingRules {
-    double target_error = 0.0;        // 0: none; the library tests it
+    double target_error = 0.0;        // 0 for none; the library tests it
     std::optional<double> time_limit; // seconds per frame
 
     bool has_target() const { return target_error > 0.0; }
@@ -31,8 +31,9 @@ struct StoppingRules {
 inline constexpr const char *stopping_options = "--error or --time";
 inline constexpr const char *ended_by_time = "time";
 
-// Forecasts the samples for a target error. `error` may be infinite. Independent errors fall as n^-1/2, stratified ones
-// faster, so the forecast falls. It is at least the next check's count, so that progress does not reach 100% too early.
+// Forecasts the samples for a target error. `error` may be infinite. Independent errors fall as n^-1/2 and stratified
+// ones faster, so the forecast falls with time. It is at least the count of the next check, so that progress does not
+// reach 100% too early.
 inline std::uint32_t forecast_sample_count(std::uint32_t sample_count, double error, double target_error,
                                            std::uint32_t most) {
     const double ratio = error / target_error;
@@ -49,7 +50,7 @@ public:
 
     const StoppingRules &rules() const { return rules_; }
 
-    // end: finished fraction of the image after the piece. Later pieces may use the time that earlier ones saved.
+    // `end` is the finished fraction of the image after the piece. A piece may use the time that earlier ones saved.
     void enter_piece(double end) {
         if (rules_.time_limit)
             end_ = start_ +

@@ -21,7 +21,7 @@ bool is_lit(const SceneFile &scene) {
     return std::ranges::any_of(scene.used_materials, [&](std::uint32_t i) { return emits(scene.materials[i]); });
 }
 
-// Returns the largest of three channels. A lobe reflects its whole weight at normal incidence.
+// The largest of three channels. At normal incidence a lobe reflects its whole weight.
 float reflected_share(const pt_material &material) {
     float largest = 0.0F;
     for (std::size_t i = 0; i < 3; ++i)
@@ -49,7 +49,7 @@ std::string byte_color_text(const pt_material &material) {
 }
 
 std::optional<std::string> brightening_materials(const SceneFile &scene) {
-    constexpr float tolerance = 1e-6F; // In floats 0.1 + 0.9 may exceed 1.
+    constexpr float tolerance = 1e-6F; // in floats 0.1 + 0.9 may exceed 1
     constexpr std::size_t most_names = 3;
     std::vector<std::string> names;
     std::string hint;
@@ -76,7 +76,7 @@ bool is_black(std::span<const float> radiance) {
     return !radiance.empty() && std::ranges::all_of(radiance, [](float value) { return value == 0.0F; });
 }
 
-// Relative errors count light below 0.1 as 0.1 (pt_error_estimate), so a dark picture satisfies them with any noise.
+// Relative errors count light below 0.1 as 0.1 (pt_error_estimate), so they are small in a dark picture with any noise.
 // Scaling all emission scales the picture and its noise.
 std::optional<std::string> picture_below_its_target(const RenderReport &report, std::span<const float> radiance) {
     // The average 0.18 / 2^4.5 is 0.008. A target of 1% then permits noise of 0.001.

@@ -1,4 +1,3 @@
-// Scene files as the program reads them: errors are Failures.
 #pragma once
 
 #include "cli/base/context.h"
@@ -25,7 +24,7 @@ auto with_exit_code(const Call &call) {
 
 SceneFile parse_scene(std::string text, const std::string &path, std::vector<SceneOverride> overrides = {});
 
-// path "-": standard input.
+// `path` may be "-" for standard input.
 SceneFile read_scene_file(const std::string &path, std::vector<SceneOverride> overrides = {});
 
 void load_columns(SceneFile &scene);
@@ -33,11 +32,11 @@ void load_columns(SceneFile &scene);
 // For commands without a scene file.
 pt_display_info display_of(const std::vector<SceneOverride> &overrides);
 
-// Names the option that sets the field, if it is set by none of the scene's.
+// Names the option that sets the field, unless the scene sets the field.
 std::string explain(const SceneFile &scene, const BrokenRule &rule);
 std::string explain(const SceneFile &scene, const LibraryError &error);
 
-// ExitCode::scene, or ExitCode::usage for an option's value.
+// ExitCode::scene, or ExitCode::usage for the value of an option.
 ExitCode blame(const SceneFile &scene, const BrokenRule &rule);
 ExitCode blame(const SceneFile &scene, const LibraryError &error);
 

@@ -22,7 +22,7 @@ SceneOverride override_of(const pt::SceneSection &section, const pt::SceneKey &k
 
 void add_size(CLI::App &command, std::vector<SceneOverride> &overrides) {
     const auto read = [&overrides](const std::string &text) {
-        const auto size = parse_numbers<2>(text, 'x'); // the library checks their ranges
+        const auto size = parse_numbers<2>(text, 'x'); // the library checks the ranges
         if (!size)
             refuse_option("--size", "must be two whole numbers like 1920x1080", text);
         overrides.push_back({{{"film"}, {"width"}}, (*size)[0], "--size: width", PT_ERROR_INVALID_ARGUMENT, true});

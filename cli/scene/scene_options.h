@@ -16,7 +16,7 @@ using pt::SceneOverride;
 // The option --set, which fills `overrides`.
 void add_set(CLI::App &command, std::vector<SceneOverride> &overrides);
 
-// Parsing fills `overrides`. has_scene: false leaves only the display's options.
+// Parsing fills `overrides`. Without has_scene only the display's options are added.
 void add_scene_options(CLI::App &command, std::vector<SceneOverride> &overrides, bool has_scene);
 
 } // namespace cli

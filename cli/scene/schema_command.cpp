@@ -1,4 +1,3 @@
-// `pt schema`.
 #include "cli/base/exit_code.h"
 #include "cli/base/options.h"
 #include "cli/commands.h"

@@ -27,11 +27,11 @@ struct SelftestScene {
     double expected;     // mean of radiance^power; the image is grey
     double relative_std; // bound of a sample's standard deviation / expected; 0 if all samples are equal
     double rounding;     // largest relative float32 error of a sample
-    int power = 1;       // 0: expected is the fraction of pixels that are not black
+    int power = 1;       // 0 if `expected` is the fraction of pixels that are not black
 
     double bound() const;
 
-    // Judges each number if there is no noise, otherwise the mean of each channel.
+    // Judges each number, or with noise the mean of each channel.
     SelftestCheck judge(std::span<const float> radiance) const;
 };
 
@@ -39,10 +39,10 @@ std::vector<SelftestScene> selftest_scenes();
 
 SelftestScene lamp_in_a_ball();
 
-// An error of 2% in a weight of multiple importance sampling moves the mean by at least twice the bound.
+// With an error of 2% in a weight of multiple importance sampling, the mean would differ by at least twice the bound.
 std::vector<SelftestScene> weight_scenes();
 
-// Samples are cosines of sampled directions. Checks means, second moments, and the fraction on each side.
+// Samples are cosines of sampled directions. The checks are means, second moments, and the fraction on each side.
 std::vector<SelftestScene> direction_scenes();
 
 struct SelftestReport {

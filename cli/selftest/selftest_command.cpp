@@ -90,7 +90,7 @@ double differing_values(std::span<const float> a, std::span<const float> b) {
     });
 }
 
-// Sums are exact, so a division into several calls must not change a bit.
+// Sums are exact, so the same samples in several calls must have the same bits.
 SelftestCheck check_splits(const Context &context) {
     const SelftestScene ball = lamp_in_a_ball();
     const std::uint32_t count = ball.scene.sample_count.value();

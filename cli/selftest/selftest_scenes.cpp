@@ -11,13 +11,13 @@
 namespace cli {
 namespace {
 
-// Probability that one check fails on a correct device. The probability that any check fails is about 1e-6.
+// Probability that one check fails on a correct device. All checks together fail with about 1e-6.
 constexpr double false_alarm = 1e-7;
 
-// Bernstein (Boucheron, Lugosi, Massart, Concentration Inequalities, 2013, section 2.8), solved for t: P(|error| > t)
-// <= 2 exp(-n t^2 / (2 s^2 + 2 m t / 3)) for n independent samples of variance s^2 and deviations up to m. Samples that
-// are nonzero with probability p have s^2 = (1 - p) / p and m = max(s^2, 1) <= s^2 + 6 s for p <= 0.97. Stratified
-// samples have less noise.
+// Bernstein's inequality (Boucheron, Lugosi, Massart, Concentration Inequalities, 2013, section 2.8): P(|error| > t) <=
+// 2 exp(-n t^2 / (2 s^2 + 2 m t / 3)) for n independent samples of variance s^2 and deviations up to m. The bound is
+// the solution for t. Samples that are nonzero with probability p have s^2 = (1 - p) / p and m = max(s^2, 1) <= s^2 + 6
+// s for p <= 0.97. Stratified samples have less noise.
 double noise_bound(double relative_std, double sample_count) {
     const double log_probability = std::log(2.0 / false_alarm);
     const double variance = relative_std * relative_std;
@@ -34,7 +34,7 @@ double channel_mean(std::span<const float> radiance, std::size_t channel, int po
 
 constexpr double unit_roundoff = 0x1p-24; // float32
 
-// 50 operations. Vulkan permits an error of 2.5 ulp = 5 roundoffs for the least exact one, division.
+// 50 operations. Division is the least exact. Vulkan permits 2.5 ulp for it, which are 5 roundoffs.
 constexpr double sample_rounding = 50 * 5 * unit_roundoff;
 
 SceneFile scene_of(std::uint32_t side, std::uint32_t sample_count, const std::string &members) {
@@ -43,15 +43,15 @@ SceneFile scene_of(std::uint32_t side, std::uint32_t sample_count, const std::st
                        "");
 }
 
-// The emission is added to an exact sum and rounded once.
+// The emission is added to an exact sum, which is rounded once.
 SelftestScene inside_a_lamp() {
     const SceneFile scene = scene_of(16, 16, R"(, "max_path_length": 3}, "materials": {"lamp": {"emission": 0.1}},
         "spheres": [{"center": [0, 0, 2], "radius": 50, "material": "lamp"}])");
     return {"inside a lamp", scene, double{scene.materials[0].emission[0]}, 0.0, unit_roundoff};
 }
 
-// A white ball in a black lamp of radiance 1. Each path ends on the lamp after at most one reflection. Its weight
-// (albedo / pi * cos) / (cos / pi) has two products and three divisions. The emission is a third product.
+// A white ball in a black lamp of radiance 1. Each path ends on the lamp after at most one reflection. The weight
+// (albedo / pi * cos) / (cos / pi) has two products and three divisions, and the emission adds a third product.
 SelftestScene white_furnace() {
     const SceneFile scene = scene_of(16, 16, R"(, "max_path_length": 3, "estimator": "bsdf"},
         "materials": {"lamp": {"emission": 1}, "white": {"diffuse": 1}},
@@ -60,7 +60,7 @@ SelftestScene white_furnace() {
     return {"white furnace", scene, 1.0, 0.0, (3 * 1 + 3 * 5) * unit_roundoff};
 }
 
-// The view is so narrow that the light varies by 1e-8.
+// In so narrow a view the light varies by 1e-8.
 SceneFile floor_scene(const std::string &members, std::uint32_t side = 32, std::uint32_t sample_count = 64,
                       std::uint32_t max_path_length = 2) {
     return scene_of(side, sample_count, concat(R"(, "max_path_length": )", max_path_length, R"(},
@@ -80,9 +80,9 @@ SeenLamp lamp_seen(const pt_sphere &lamp, const pt_camera &camera) {
     return {way[1] / distance, lamp.radius / distance};
 }
 
-// A sphere above a plane gives the radiance A L (r / d)^2 cos, as a point would (Snyder 1996). The relative deviation
-// by solid angle, with sin a = r / d, is below sin a tan + 1 - cos a. Directions by the cosine hit the lamp with
-// probability p = sin^2 a cos and weigh at most p^2.
+// A sphere above a plane gives the radiance A L (r / d)^2 cos, as a point would (Snyder 1996). For directions by solid
+// angle, with sin a = r / d, the relative deviation is below sin a tan + 1 - cos a. Directions by the cosine hit the
+// lamp with probability p = sin^2 a cos, and their weight is at most p^2.
 SelftestScene floor_under_lamp(const std::string &name, const std::string &members) {
     const SceneFile scene = floor_scene(members);
     const auto [cosine, sine] = lamp_seen(scene.spheres[0], scene.camera);
@@ -105,7 +105,7 @@ SelftestScene tiny_far_lamp() {
         "planes": [{"normal": [0, 1, 0], "offset": 1, "material": "floor"}])");
 }
 
-// Within the view, ball and plane differ by 1e-18.
+// Ball and plane differ by 1e-18 within the view.
 SelftestScene huge_ball_as_floor() {
     return floor_under_lamp("floor is a ball of 1e7", R"(
         "materials": {"lamp": {"emission": 10}, "floor": {"diffuse": 0.8}},
@@ -113,10 +113,10 @@ SelftestScene huge_ball_as_floor() {
                     {"center": [0, -10000001, -2], "radius": 1e7, "material": "floor"}])");
 }
 
-// A glossy floor in a dome of radiance 1. The integral of (n + 2) / (2 pi) cos^n g cos, with g from the mirror
-// direction r, is the cosine of r, because only components along r contribute. The horizon does not clip the lobe. In
-// the plane of incidence its directions have the variance 1 / n, so a sample's cosine has the relative standard
-// deviation tan / sqrt(n) at the angle of incidence.
+// A glossy floor in a dome of radiance 1. Let g be the angle between a direction and the mirror direction r. The
+// integral of (n + 2) / (2 pi) cos^n(g) times the direction's cosine is the cosine of r, because only components along
+// r contribute. The horizon does not clip the lobe. Directions in the plane of incidence have the variance 1 / n. The
+// relative standard deviation of a sample's cosine is therefore tan / sqrt(n) at the angle of incidence.
 SelftestScene sharp_lobe() {
     const SceneFile scene = floor_scene(R"(
         "materials": {"dome": {"emission": 1}, "floor": {"specular": 1, "glossiness": 1e6}},
@@ -127,8 +127,9 @@ SelftestScene sharp_lobe() {
             tangent / std::sqrt(double{scene.materials[1].glossiness}), sample_rounding};
 }
 
-// A unit lamp moves along the axis from a to b. It covers pi / (z^2 - 1) of the image plane, on average pi / (b - a)
-// times the integral log((z - 1) / (z + 1)) / 2. It is always fully in view: 2 tan(fov / 2) > 2 / sqrt(a^2 - 1).
+// A unit lamp moves along the axis from a to b. It covers pi / (z^2 - 1) of the image plane. The average over the
+// motion is pi / (b - a) times the integral log((z - 1) / (z + 1)) / 2. The lamp is always fully in view: 2 tan(fov /
+// 2) > 2 / sqrt(a^2 - 1).
 SelftestScene receding_lamp() {
     const SceneFile scene = scene_of(64, 64, R"(, "max_path_length": 1}, "materials": {"lamp": {"emission": 1}},
         "camera": {"position": [0, 0, 0], "look_at": [0, 0, -1], "vertical_fov": 29.2},
@@ -142,11 +143,11 @@ SelftestScene receding_lamp() {
     return {"receding lamp", scene, share, std::sqrt((1.0 - share) / share), sample_rounding};
 }
 
-// The standard deviations of the next three scenes are from quadrature, rounded up. Their bounds are below 1% of the
-// smallest contribution of a weight.
+// The standard deviations of the next three scenes come from quadrature and are rounded up. The bounds are below 1% of
+// the smallest contribution of a weight.
 
-// The lamp fills a cone of 30 degrees. Four directions together have nearly the density of the lamp's sample, so each
-// technique contributes half of the value.
+// The lamp fills a cone of 30 degrees. Four directions together have almost the same density as the lamp's sample, so
+// each technique contributes half of the value.
 SelftestScene weights_of_a_lamp() {
     const SceneFile scene = floor_scene(R"(
         "materials": {"lamp": {"emission": 4}, "floor": {"diffuse": 1}},
@@ -181,10 +182,10 @@ SelftestScene weights_of_a_chosen_lamp() {
     return {"weights of a chosen lamp", scene, expected, 0.3, sample_rounding};
 }
 
-// A lamp of radiance L and radius r hangs h below a ceiling of albedo A, H above the floor. Straight below, the floor
-// gets L r^2 / (H - h)^2 from the lamp. The ceiling gives L r^2 A 2 h H^2 int_h^inf dv / (v^2 (v^2 + a^2)^2) with a^2 =
-// H^2 - h^2, from points at distances v from the lamp. The ray to the glow finds 71% of the ceiling's light, two
-// directions 29%. The lamp gives 5% of all light.
+// A lamp of radiance L and radius r hangs h below a ceiling of albedo A. The ceiling is H above the floor. Straight
+// below, the floor gets L r^2 / (H - h)^2 from the lamp. The ceiling gives L r^2 A 2 h H^2 int_h^inf dv / (v^2 (v^2 +
+// a^2)^2) with a^2 = H^2 - h^2, from points at distances v from the lamp. The ray to the glow finds 71% of the
+// ceiling's light, two directions 29%. The lamp gives 5% of all light.
 SelftestScene weights_of_a_glow() {
     constexpr double albedo = 20.0;
     constexpr double h = 1.0;
@@ -205,12 +206,12 @@ struct DirectionKind {
     const char *name;
     const char *estimator;
     const char *floor; // members of its material
-    double power;      // The density is c^power, with the cosine c to the normal.
-    double scale;      // A sample is scale * c.
+    double power;      // the density is c^power, where c is the cosine to the normal
+    double scale;      // a sample is scale * c
 };
 
-// A floor under a sky of radiance 1, seen from above by parallel rays, with one independent sample per pixel.
-// share: fraction of the directions that more_planes leave free, at any cosine.
+// A floor under a sky of radiance 1, seen from above by parallel rays, with one independent sample per pixel. `share`
+// is the fraction of directions that more_planes leave free, which is the same for any cosine.
 SelftestScene direction_scene(const DirectionKind &kind, const std::string &what, int exponent,
                               const std::string &more_planes, double share) {
     const auto moment = [&](int e) {
@@ -259,7 +260,7 @@ SelftestCheck SelftestScene::judge(std::span<const float> radiance) const {
 
 // A wall of albedo rho and radius R around a black lamp of radius r. Directions by the cosine hit the lamp with
 // probability q = (r / R)^2. Paths of L vertices carry rho Le q sum_{j <= L - 2} (rho (1 - q))^j. A path that ends on
-// the lamp lacks the rest, less than sqrt(q) of the value.
+// the lamp lacks the later terms, which are less than sqrt(q) of the value.
 SelftestScene lamp_in_a_ball() {
     constexpr double rho = 0.5;
     constexpr double emission = 100.0;
@@ -281,8 +282,9 @@ std::vector<SelftestScene> weight_scenes() {
     return {weights_of_a_lamp(), weights_of_a_chosen_lamp(), weights_of_a_glow()};
 }
 
-// A sample is reflection * c / density: 2 c for white diffuse and uniform directions, (n + 2) / 2 c^n for a lobe by the
-// cosine, (n + 2) / (n + 1) c for the lobe by itself. A black plane beside the rays blocks half of the directions.
+// A sample is reflection * c / density. This is 2 c for white diffuse and uniform directions, (n + 2) / 2 c^n for a
+// lobe by the cosine, and (n + 2) / (n + 1) c for a lobe by its own density. A black plane beside the rays blocks half
+// of the directions.
 std::vector<SelftestScene> direction_scenes() {
     constexpr double n = 20.0;
     constexpr int wall_count = 4;

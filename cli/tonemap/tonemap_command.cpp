@@ -1,4 +1,3 @@
-// `pt tonemap`: converts radiance to a displayable picture.
 #include "cli/base/devices.h"
 #include "cli/base/exit_code.h"
 #include "cli/base/file.h"
@@ -74,7 +73,7 @@ std::vector<float> alpha_of(const DecodedImage &image, const ImageFormat &format
     return alpha;
 }
 
-// Keeps the file's facts about its rendering, with the new tone mapping.
+// Keeps the file's facts about its rendering, and adds the tone mapping.
 std::vector<ImageAttribute> attributes_of(const DecodedImage &image, const ToneMap &tone_map) {
     std::vector<ImageAttribute> attributes{{"software", "pt " + version_text()}};
     for (const ImageAttribute &each : image.attributes) {
