@@ -19,7 +19,7 @@ void Comparison::add(Real value, Real exact, Real bound, const std::vector<float
 }
 
 void Comparison::add(const glm::vec3 &value, const Direction &exact, Real bound, const std::vector<float> &input) {
-    const Direction shift = control_shift * bound * Direction(0.48L, -0.6L, 0.64L); // a unit vector
+    const Direction shift = control_shift * bound * Direction(0.48L, -0.6L, 0.64L);
     add_error(glm::length(Direction(value) - exact), glm::length(Direction(value) - exact - shift), bound, input);
 }
 

@@ -12,7 +12,7 @@ namespace accuracy {
 using Real = long double;
 using Direction = glm::vec<3, Real>;
 
-constexpr Real half_ulp = 0x1p-24L; // relative to 1
+constexpr Real half_ulp = 0x1p-24L;
 
 class Comparison {
 public:

@@ -42,7 +42,7 @@ public:
     }
 
 private:
-    double normal() { // portable by the central limit theorem, unlike std::normal_distribution
+    double normal() { // std::normal_distribution is not portable
         double sum = 0.0;
         for (int i = 0; i < 12; ++i)
             sum += word() * 0x1p-32;

@@ -49,7 +49,7 @@ void mix(std::array<std::uint32_t, 4> &v) {
 
 glm::uvec4 pcg4d(const glm::uvec4 &input) {
     std::array<std::uint32_t, 4> v{};
-    for (int i = 0; i < 4; ++i) // linear congruential step of Numerical Recipes
+    for (int i = 0; i < 4; ++i)
         v[static_cast<std::size_t>(i)] = static_cast<std::uint32_t>(1664525ULL * input[i] + 1013904223ULL);
     mix(v);
     for (std::uint32_t &word : v)

@@ -75,7 +75,7 @@ struct View {
     Real distance;
     Real squared_sine;
     Real height;
-    Real height_share; // relative error of height
+    Real height_share;
     Real highest_cosine;
 
     View(const Lamp &lamp, const Item &item) {

@@ -10,7 +10,7 @@ namespace {
 
 struct Item {
     glm::vec3 axis;
-    float height; // 1 - cos of the cone direction
+    float height;
     glm::vec2 numbers;
     float density, other_density;
 };

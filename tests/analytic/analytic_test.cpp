@@ -25,7 +25,7 @@ std::uint32_t samples_for(const Crop &crop, const cli::SceneFile &scene) {
 }
 
 struct Measurement {
-    std::uint32_t sample_count; // of all batches together
+    std::uint32_t sample_count;
     Estimate radiance;
 };
 

@@ -34,7 +34,7 @@ std::vector<Expectation> read_expectations() {
         throw std::runtime_error("cannot open " + folder + "expected.csv");
     std::vector<Expectation> expectations;
     std::string line;
-    std::getline(file, line); // skips the column names
+    std::getline(file, line);
     while (std::getline(file, line)) {
         const std::vector<std::string> field = fields(line);
         if (expectations.empty() || expectations.back().scene != field.at(0))

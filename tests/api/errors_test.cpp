@@ -151,7 +151,7 @@ TEST_F(ErrorsTest, StayAsLongAsTheMessage) {
     EXPECT_EQ(rule_of(context(), 0).subject, before.subject);
     std::vector<float> pixels(width * height * 3);
     const pt_image image = tight_image(pixels);
-    EXPECT_EQ(pt_readback(context(), &image), PT_ERROR_INVALID_STATE); // an error of no field
+    EXPECT_EQ(pt_readback(context(), &image), PT_ERROR_INVALID_STATE);
     EXPECT_EQ(pt_get_broken_rule(context(), 0, nullptr), 0U);
 }
 

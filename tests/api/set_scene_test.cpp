@@ -57,7 +57,7 @@ class SetSceneTest : public ContextFixture {
 protected:
     struct Told {
         std::vector<double> shares;
-        std::size_t most = SIZE_MAX; // number of calls before the one that cancels
+        std::size_t most = SIZE_MAX;
 
         static std::int32_t receive(void *user, double share) {
             auto *const told = static_cast<Told *>(user);

@@ -4,8 +4,8 @@ from cost_of_error import cost_of_error
 from table import print_table
 
 DEFAULT = ("sobol", "mis")
-SAMPLERS = ("sobol", "random", "halton", "halton-cp")  # with the default estimator
-ESTIMATORS = ("uniform", "cosine", "bsdf", "light")  # with the default sampler
+SAMPLERS = ("sobol", "random", "halton", "halton-cp")
+ESTIMATORS = ("uniform", "cosine", "bsdf", "light")
 OPTIONS = (*SAMPLERS[1:], *ESTIMATORS, "Mitsuba")
 COARSE = 0.01  # limit for a reference's error, divided by the smallest measured error
 

@@ -7,7 +7,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 import matplotlib.ticker  # noqa: E402
 
 COLUMNS = 4
-MOST = 100  # Panels end at this multiple of the default's largest error.
+MOST = 100
 # Okabe and Ito's palette (Wong 2011, "Color blindness"). Samplers have solid lines, estimators dashed ones.
 STYLES = {
     "random": ("#56B4E9", "-"),
@@ -21,7 +21,7 @@ STYLES = {
     "Mitsuba, filtered": ("#D55E00", "--"),
     "filtered": ("#0072B2", "--"),
     "combined": ("#009E73", "-"),
-    "default": ("#000000", "-"),  # drawn on top
+    "default": ("#000000", "-"),
 }
 LABELS = {"default": "default: sobol, mis", "combined": "combined: what is shown", "Mitsuba": "Mitsuba, multijitter"}
 
@@ -50,7 +50,7 @@ def draw_scene(axes, name, scene):
 
 def plot(report):
     scenes = report["scenes"]
-    rows = math.ceil((len(scenes) + 1) / COLUMNS)  # one more for the legend
+    rows = math.ceil((len(scenes) + 1) / COLUMNS)
     figure, panels = plt.subplots(rows, COLUMNS, figsize=(3.2 * COLUMNS, 2.8 * rows), squeeze=False,
                                   constrained_layout=True)
     panels = list(panels.flat)

@@ -3,7 +3,7 @@
 import math
 import statistics
 
-BLOCK = 16  # pixels
+BLOCK = 16
 ROUNDING = 1e-5  # relative error of a mean: Mitsuba sums a pixel's samples as floats
 
 

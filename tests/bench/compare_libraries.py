@@ -62,7 +62,7 @@ def measure(name, length, options):
     if len(scene["spheres"]) + len(scene.get("planes", [])) <= FEW_SURFACES:
         os.environ.setdefault("LP_NATIVE_VECTOR_WIDTH", "512")
     os.environ["MESA_SHADER_CACHE_DISABLE"] = "true"
-    from scene_renderer import SceneRenderer  # loads a driver
+    from scene_renderer import SceneRenderer
 
     libraries = {}
     for library in options.library:

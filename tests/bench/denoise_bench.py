@@ -28,7 +28,7 @@ from table import print_table
 from pt import _structs as structs, denoise
 
 COUNTS = [4, 16, 64, 256]
-ALBEDO, NORMAL = 5, 4  # PT_QUANTITY_*
+ALBEDO, NORMAL = 5, 4
 COLUMNS = {"default": "raw", "filtered": "filtered", "combined": "combined", "Mitsuba, filtered": "Mitsuba, filtered"}
 
 
@@ -57,7 +57,7 @@ def pt_round(name, seed, add):
             _, seconds = timed(renderer.accumulate, count)
             return pixels(renderer), seconds
 
-        for _ in range(2):  # builds the kernels
+        for _ in range(2):
             image, _ = sample(1, seed)
             renderer.call("pt_prepare")
         guides = pixels(renderer, ALBEDO), pixels(renderer, NORMAL)

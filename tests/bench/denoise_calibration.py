@@ -88,7 +88,7 @@ def measured(name, count, arrays):
     denoised, error = pt.denoise(first, second, arrays["albedo"], arrays["normal"])
 
     def square(image, weight):
-        return max(float((weight * (image - truth) ** 2).mean()), 1e-30)  # positive even without noise
+        return max(float((weight * (image - truth) ** 2).mean()), 1e-30)
 
     relative, absolute = ([square(image, weight) for image in (raw, denoised)] for weight in (1 / (truth ** 2 + 0.01), 1))
     true = math.sqrt(relative[1])

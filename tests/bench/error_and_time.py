@@ -21,7 +21,7 @@ import time
 
 import numpy as np
 from bench_scenes import read_scene
-from scene_renderer import ESTIMATORS, SAMPLERS, SceneRenderer  # finds pt
+from scene_renderer import ESTIMATORS, SAMPLERS, SceneRenderer
 from table import print_table
 from pt import DeviceKind
 

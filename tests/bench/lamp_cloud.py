@@ -2,7 +2,7 @@ import array
 import random
 
 SEED = 5
-LOW, HIGH = (-8, 0.8, -16), (8, 6, -2)  # corners of the cloud
+LOW, HIGH = (-8, 0.8, -16), (8, 6, -2)
 BRIGHTNESSES = 41
 POWER = 60  # emission of a lamp of radius 0.3 with the light of the whole cloud
 MATT, DARK = {"diffuse": [0.7, 0.6, 0.5]}, {"diffuse": [0.4, 0.5, 0.6]}

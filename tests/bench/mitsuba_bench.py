@@ -32,7 +32,7 @@ def main():
     mitsuba = MitsubaScene(options.variant, scene, reference_size(options.reference, options.variant))
     reference, length, cells = mitsuba.read(options.reference), scene["render"]["max_path_length"], []
     for spp in map(int, options.spp.split(",")):
-        mitsuba.render(length, options.sampler, spp, options.seed)  # compiles
+        mitsuba.render(length, options.sampler, spp, options.seed)
         seconds, processor_seconds, image = mitsuba.render(length, options.sampler, spp, options.seed)
         if options.images:
             mitsuba.np.save(f"{options.images}/{spp}.npy", image)

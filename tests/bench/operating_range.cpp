@@ -153,7 +153,7 @@ double floor_under_lamp() {
 TEST_F(OperatingRange, DistanceOfALitFloor) {
     std::printf("\ndistance of a floor / distance of its lamp, from above\n");
     for (int exponent = 0; exponent <= 8; ++exponent) {
-        const double distance = std::numbers::pi / 3.0 * std::pow(10.0, exponent); // avoids round numbers
+        const double distance = std::numbers::pi / 3.0 * std::pow(10.0, exponent);
         cli::SceneFile scene = read_scene("01-above");
         scene.spheres[0] = {{3, lamp_height - 1, 0}, 1, {0, 0, 0}, scene.spheres[0].material, 0};
         scene.camera = {sizeof(pt_camera), 0, {0, distance - 1, 0}, {0, -1, 0}, {0, 0, 1}, 0, 0, 0, 0, 0, 0};

@@ -57,7 +57,7 @@ def write_pfm(path, pixels):
         pixels.byteswap()
     with open(path, "wb") as file:
         file.write(b"PF\n%d %d\n-1.0\n" % SIZE)
-        for row in reversed(range(HEIGHT)):  # bottom row first
+        for row in reversed(range(HEIGHT)):
             file.write(pixels[row * WIDTH * 3:(row + 1) * WIDTH * 3].tobytes())
 
 

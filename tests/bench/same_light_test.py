@@ -5,7 +5,7 @@ import unittest
 from same_light import KINDS, Images, pt, scenes_of
 
 SCENES = ["coursework", "caustic-small", "corner-ball"]
-PAIRS = 6  # pairs of each kind
+PAIRS = 6
 RATE = 0.05
 MOST = 14  # P(more false alarms of 90 pairs at the stated rate) < 10^-4
 
@@ -28,7 +28,7 @@ class SameLight(unittest.TestCase):
                     alarms += pt.compare(first, second).probability <= RATE
                     of_blocks += pt.compare(blocks(first), blocks(second)).probability <= RATE
         self.assertLessEqual(alarms, MOST)
-        self.assertGreater(of_blocks, MOST)  # Negative control.
+        self.assertGreater(of_blocks, MOST)
 
 
 if __name__ == "__main__":

@@ -43,9 +43,9 @@ from scene_renderer import SceneRenderer, color, structs, vector  # noqa: E402 (
 from pt import DeviceKind  # noqa: E402
 
 CLOUDS = {"spheres": SphereCloud, "lamps": LampCloud, "dark-lamps": lambda count: LampCloud(count, shining=False)}
-FLOAT32, UINT32 = 1, 3  # PT_TYPE_*
+FLOAT32, UINT32 = 1, 3
 MOST_SAMPLES = 1 << 14
-MITSUBA_FACTOR = 4  # factor for Mitsuba's sample counts
+MITSUBA_FACTOR = 4
 REFERENCE_FACTOR, REFERENCE_SEED = 64, 1000
 ALIKE = 0.01  # pictures whose means differ by more are not compared
 

@@ -61,7 +61,7 @@ class Stopped:
     reached: bool
     own: float
     brightness: float  # divided by the reference's brightness
-    samples: float  # mean number of samples
+    samples: float
 
 
 @dataclass

@@ -66,7 +66,7 @@ protected:
         pt_render render = render_of(width, height, std::min(file.render.max_path_length, 4U));
         render.sampler = sampler;
         set_picture(on, scene, file.camera, render);
-        take(on, 5); // The film is split at another sample.
+        take(on, 5);
         take(on, 20);
         const std::vector<char> begun = film_of(on);
         take(on, 15);

@@ -15,7 +15,7 @@ from png import parse_png, png_chunks, read_png  # noqa: F401
 
 PT, FAKE_PT = os.environ["PT_PROGRAM"], os.environ["PT_FAKE_PROGRAM"]
 SCENES = str(pathlib.Path(__file__).resolve().parents[2] / "cli/scenes")
-COURSEWORK = os.path.join(SCENES, "coursework-diffuse.json")  # gives no warnings
+COURSEWORK = os.path.join(SCENES, "coursework-diffuse.json")
 
 # A program counts as hung after this time, in seconds. All expected events come much sooner.
 PATIENCE = 600
@@ -76,7 +76,7 @@ class CommandLineTest(unittest.TestCase):
         process = self.start(*arguments, **environment)
         self.output, self.errors = process.communicate(timeout=PATIENCE)
         if "LeakSanitizer" in self.errors:
-            print(self.errors, file=sys.stderr)  # for repeat_leak_check.py
+            print(self.errors, file=sys.stderr)
         return process.returncode
 
     def expect(self, code, *arguments, error=None, **environment):

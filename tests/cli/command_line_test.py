@@ -165,7 +165,7 @@ class Outputs(CommandLineTest):
 
         def full_disk():
             default_signals()
-            signal.signal(signal.SIGXFSZ, signal.SIG_DFL)  # Python ignores it
+            signal.signal(signal.SIGXFSZ, signal.SIG_DFL)
             resource.setrlimit(resource.RLIMIT_FSIZE, (7500, 7500))
 
         done = self.piped("render", COURSEWORK, "-o", "big.exr", "-o", "small.png", "--spp", "1", preexec_fn=full_disk, text=True)

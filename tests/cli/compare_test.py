@@ -13,7 +13,7 @@ MSE, RELATIVE_MSE = 1 / 3, 1 / (4 + 0.01) / 3
 
 
 class Compare(CommandLineTest):
-    made = {}  # images that are rendered once
+    made = {}
 
     def setUp(self):
         super().setUp()
@@ -50,14 +50,14 @@ class Compare(CommandLineTest):
 
         maximum = signal(3) - signal(2)
         figures = self.figures("a.png", "r.png")
-        self.assertAlmostEqual(figures["maximum"], maximum, delta=1e-7)  # float32
+        self.assertAlmostEqual(figures["maximum"], maximum, delta=1e-7)
         self.assertAlmostEqual(figures["mse"], maximum ** 2 / 3, delta=1e-7)
 
     def test_limits(self):
-        figures = self.figures("a.png", "r.png")  # which load faster than .exr
+        figures = self.figures("a.png", "r.png")
         for option, name in (("--max-mse", "mse"), ("--max-relative-mse", "relative_mse"), ("--max-difference", "maximum")):
             with self.subTest(option=option):
-                below, above = repr(figures[name] * (1 - 1e-12)), repr(figures[name] * (1 + 1e-12))  # sums may be rounded
+                below, above = repr(figures[name] * (1 - 1e-12)), repr(figures[name] * (1 + 1e-12))
                 self.expect(0, "compare", "a.png", "r.png", option, above)
                 self.expect(8, "compare", "a.png", "r.png", option, below)
                 self.assertEqual(len(self.errors.splitlines()), 1)

@@ -54,5 +54,5 @@ class Coursework(CommandLineTest):
                 verdicts = [line.split()[0] for line in done.stdout.splitlines()
                             if "hemisphere, uniform" in line or "by cosine: cosine" in line]
                 self.assertEqual(verdicts, ["pass"] * 7)
-        shorter = pixels_of(os.path.join(REFERENCES, "coursework-diffuse_L2.exr"))  # negative control
+        shorter = pixels_of(os.path.join(REFERENCES, "coursework-diffuse_L2.exr"))
         self.assertEqual(pt.compare(images["3-paths"], shorter).light, pt.Light.DIFFERENT)

@@ -36,7 +36,7 @@ class Denoise(DenoiseTest):
         self.assertEqual(self.files(), [])
 
     def test_a_signal_leaves_the_last_round(self):
-        for submission in "5", "20":  # of 32 submissions
+        for submission in "5", "20":
             self.render("-o", "a.png", DENOISE, "--spp", "8", code=130, FAKE_PT_SIGNAL=f"2:{submission}",
                         error="stopped by SIGINT after 0 of 8 samples per pixel; nothing was written")
         self.assertEqual(self.files(), [])
@@ -103,7 +103,7 @@ class RealDeviceDenoise(DenoiseTest):
         self.assertEqual((stats["ended_by"], stats["target_reached"]), ("error", True))
         self.assertTrue(32 <= stats["spp"] < 4096)
         self.assertLessEqual(stats["relative_rmse_high"], target)
-        self.render("-o", "b.exr", DENOISE, "--spp", str(stats["spp"]))  # in one run
+        self.render("-o", "b.exr", DENOISE, "--spp", str(stats["spp"]))
         self.assertEqual(self.channels("a.exr"), self.channels("b.exr"))
         self.assertEqual(self.run_pt("render", COURSEWORK, *SIZE, "-o", "a.exr", DENOISE, "--error", "1e-9", "--spp", "40"), 7)
         self.assertIn("after 40 samples, raise --spp", self.output)

@@ -89,6 +89,6 @@ class ExitCodes(CommandLineTest):
                 self.program = PT if arguments[:1] in (["merge"], ["compare"]) else FAKE_PT
                 self.assertEqual(self.run_pt(*arguments, **environment), code, self.errors)
                 self.assertTrue(self.errors.startswith(said), self.errors)
-                if self.contents("a.png") == b"old":  # and nothing else is left
+                if self.contents("a.png") == b"old":
                     os.remove(self.path("a.png"))
                 self.assertEqual([name for name in self.files() if name not in given], left)

@@ -65,7 +65,7 @@ class SameFiles(CommandLineTest):
 
     def setUp(self):
         super().setUp()
-        self.write("s.png", SCENE)  # a scene file may have any name
+        self.write("s.png", SCENE)
         os.mkdir(self.path("folder"))
 
     def test_the_scene_is_kept(self):
@@ -109,7 +109,7 @@ class SameFiles(CommandLineTest):
                         *arguments, "a.png", "--stats", "shaders/pathtrace.comp", *watch)
             self.refuse("-o ./shaders/a.png: is in the folder of --shader-dir shaders, whose files are read",
                         *arguments, "./shaders/a.png", *watch)
-        self.expect(0, "render", *arguments, "shaders/folder/a.png")  # not a shader
+        self.expect(0, "render", *arguments, "shaders/folder/a.png")
 
     def test_distinct_files_are_distinct(self):
         os.mkdir(self.path("a"))

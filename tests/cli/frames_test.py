@@ -39,7 +39,7 @@ class Frames(FramesTest):
         self.expect(0, *arguments, "--skip-existing")
         self.assertEqual((self.read("0.png"), self.read("3.png")), ("kept", "kept"))
         self.assertEqual((self.pixels("1.png")[:2], json.loads(self.read("2.json"))["seed"]), ((16, 8), 7))
-        self.expect(0, *arguments, "--skip-existing", FAKE_PT_FAIL="create:-5")  # needs no device
+        self.expect(0, *arguments, "--skip-existing", FAKE_PT_FAIL="create:-5")
         self.expect(4, *arguments, error="none", FAKE_PT_FAIL="create:-5", FAKE_PT_MESSAGE="none")
 
     def test_the_time_is_that_of_each_frame(self):
@@ -53,7 +53,7 @@ class Frames(FramesTest):
         self.assertEqual(self.files(), ["0.png", "s.json"])
 
     def test_a_stop_leaves_whole_frames(self):
-        submission = 2 * 16 * 4 + 5  # in the third frame
+        submission = 2 * 16 * 4 + 5
         self.expect(130, "render", "s.json", "--frames", "4-9", "-o", "#.png", "-q",
                     error="pt: stopped by SIGINT in frame 6", FAKE_PT_SIGNAL=f"{int(signal.SIGINT)}:{submission}")
         self.assertEqual(self.files(), ["4.png", "5.png", "s.json"])
@@ -88,7 +88,7 @@ class RealDevice(FramesTest):
         pictures = [self.pixels(f"{frame}.png") for frame in range(4)]
         self.assertEqual(len({str(picture) for picture in pictures}), 4)
         for frame in range(4):
-            middle = frame + 0.25  # of the shutter
+            middle = frame + 0.25
             scene = {**SCENE, "materials": {"a": {"emission": 0.2 + 0.1 * middle}},
                      "spheres": [{**SCENE["spheres"][0], "center": [frame - 2, 0, 0], "motion": [1, 0, 0]}],
                      "camera": {**SCENE["camera"], "position": [0, max(0, middle - 2) / 2, 4]},

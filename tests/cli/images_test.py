@@ -10,7 +10,7 @@ from command_line import (COURSEWORK, RESULT, CommandLineTest, parse_png, png_ch
 
 WIDTH, HEIGHT = 9, 7
 SIZE = ("--size", f"{WIDTH}x{HEIGHT}")
-CROP = (2, 3, 5, 4)  # x, y, width, height
+CROP = (2, 3, 5, 4)
 CROP_TEXT = ",".join(map(str, CROP))
 
 

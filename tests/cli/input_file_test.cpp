@@ -42,9 +42,9 @@ TEST(Printable, ShowsWhatSteersTerminals) {
               "<U+009B> <U+061C><U+200E><U+200F> <U+2028><U+2029><U+202A><U+202E> <U+2066><U+2069>");
     EXPECT_EQ(printable("\x9b"
                         "1m"),
-              "<U+009B>1m");                          // used by eight-bit terminals
-    EXPECT_EQ(printable("\xc0\x9b"), "<U+001B>");     // overlong
-    EXPECT_EQ(printable("\xe2\x80"), "\xe2<U+0080>"); // incomplete
+              "<U+009B>1m");
+    EXPECT_EQ(printable("\xc0\x9b"), "<U+001B>"); // overlong
+    EXPECT_EQ(printable("\xe2\x80"), "\xe2<U+0080>");
     EXPECT_EQ(platform::printable_lines("a\n\x1b"), "a\n<U+001B>");
 }
 

@@ -53,7 +53,7 @@ TEST(KernelFolder, WhatWasUsedLongestAgoMakesPlace) {
         keep(folder, kernel_key(number), "x");
         std::filesystem::last_write_time(path(number), long_ago + std::chrono::hours(number));
     }
-    EXPECT_EQ(kept(folder, kernel_key(0)), "x"); // used just now
+    EXPECT_EQ(kept(folder, kernel_key(0)), "x");
     keep(folder, kernel_key(100), "x");
     EXPECT_TRUE(std::filesystem::exists(path(0)));
     EXPECT_FALSE(std::filesystem::exists(path(1)));

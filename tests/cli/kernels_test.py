@@ -31,5 +31,5 @@ class RealDeviceKernels(CommandLineTest):
             self.assertEqual(self.render(XDG_CACHE_HOME=folder), picture)
             self.assertEqual((self.contents(path), self.kept()), (whole, kept))
         self.write("file", "")
-        for place in {"XDG_CACHE_HOME": self.path("file")}, {"XDG_CACHE_HOME": "", "HOME": ""}:  # no cache can be there
+        for place in {"XDG_CACHE_HOME": self.path("file")}, {"XDG_CACHE_HOME": "", "HOME": ""}:
             self.assertEqual((self.render(**place), self.errors), (picture, ""))

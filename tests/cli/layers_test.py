@@ -153,7 +153,7 @@ class RealDeviceLayers(LayersTest):
         channels = read_exr_channels(self.path("a.exr"))
         self.assertEqual(channels["A"], channels["R"])
         values = {value for row in channels["A"] for value in row}
-        self.assertEqual(values, {0.0, 0.5, 1.0})  # means of two samples
+        self.assertEqual(values, {0.0, 0.5, 1.0})
         for row, alphas in zip(read_png(self.path("a.png"))[2], channels["A"]):
             for x, alpha in enumerate(alphas):
                 color = 255 if alpha > 0 else 0

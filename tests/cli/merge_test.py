@@ -42,7 +42,7 @@ class Merge(CommandLineTest):
         for key in "width", "height", "spp", "seed", "max_path_length", "rejected_samples":
             self.assertEqual(found[key], rendered[key], key)
         for key in "rmse", "rmse_low", "rmse_high", "relative_rmse", "relative_rmse_low", "relative_rmse_high":
-            self.assertAlmostEqual(found[key], rendered[key], delta=1e-5 * rendered[key])  # GPUs add floats
+            self.assertAlmostEqual(found[key], rendered[key], delta=1e-5 * rendered[key])
         self.assertEqual(found["uncertain"], rendered["uncertain"])
         self.assertEqual((found["sampler"], found["estimator"]), ("sobol", "mis"))
 

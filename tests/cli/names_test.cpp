@@ -9,7 +9,7 @@ namespace {
 
 template <std::size_t Count>
 void expect_round_trip(const pt::ValueNames<Count> &methods, std::uint32_t last) {
-    EXPECT_EQ(methods.names().size(), last + 1U); // pt.h counts from 0
+    EXPECT_EQ(methods.names().size(), last + 1U);
     for (std::uint32_t value = 0; value <= last; ++value)
         EXPECT_EQ(methods.find(methods.name(value)), value);
     EXPECT_EQ(methods.find("bset"), std::nullopt);
@@ -25,12 +25,12 @@ TEST(ValueNames, EveryMethodHasAName) {
 constexpr std::array<std::string_view, 4> known{"center", "radius", "material", "motion"};
 
 TEST(Suggestion, FindsCommonMisspellings) {
-    EXPECT_EQ(pt::nearest_name("raduis", known), "radius"); // two letters swapped
+    EXPECT_EQ(pt::nearest_name("raduis", known), "radius");
     EXPECT_EQ(pt::nearest_name("centre", known), "center");
-    EXPECT_EQ(pt::nearest_name("materials", known), "material"); // one letter more
-    EXPECT_EQ(pt::nearest_name("moton", known), "motion");       // one letter less
-    EXPECT_EQ(pt::nearest_name("Radius", known), "radius");      // other case
-    EXPECT_EQ(pt::nearest_name("rabius", known), "radius");      // another letter
+    EXPECT_EQ(pt::nearest_name("materials", known), "material");
+    EXPECT_EQ(pt::nearest_name("moton", known), "motion");
+    EXPECT_EQ(pt::nearest_name("Radius", known), "radius");
+    EXPECT_EQ(pt::nearest_name("rabius", known), "radius");
 }
 
 TEST(Suggestion, PrefersTheNearest) {

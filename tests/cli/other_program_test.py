@@ -35,8 +35,8 @@ class OtherProgram(CommandLineTest):
         self.assertEqual((run.returncode, run.stdout, run.stderr), (42, f"{program} --help a b \n", ""))
 
     def test_the_first_folder_that_has_it_counts(self):
-        self.put("first", "pt-hello", mode=0o644)  # not executable
-        os.mkdir(self.path("empty", "pt-hello"))  # not a file
+        self.put("first", "pt-hello", mode=0o644)
+        os.mkdir(self.path("empty", "pt-hello"))
         program = self.put("second", "pt-hello")
         folders = [self.path(each) for each in ("missing", "first", "empty", "second")]
         self.assertEqual(self.run_with(":".join(folders), "hello").stdout, program + "\n")

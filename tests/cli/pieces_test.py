@@ -57,7 +57,7 @@ class Steps(CommandLineTest):
             self.assertEqual(json.loads(self.read("s.json"))["spp"], int(count))
             return read_png(self.path("a.png"))
 
-        split = {"FAKE_PT_FAIL": "split:1"}  # the number of calls changes the picture
+        split = {"FAKE_PT_FAIL": "split:1"}
         self.assertEqual(picture("16", **split), picture("1", **split))
         self.assertNotEqual(picture("17", **split), picture("16", **split))
         self.assertEqual(picture("17"), picture("16"))

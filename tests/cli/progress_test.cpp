@@ -35,7 +35,7 @@ TEST(Progress, JsonLines) {
     for (std::string line; std::getline(lines, line); ++count)
         last = nlohmann::json::parse(line);
     EXPECT_GE(count, 19);
-    EXPECT_LE(count, 21); // ten a second
+    EXPECT_LE(count, 21);
     EXPECT_EQ(last.at("fraction"), 1.0);
     EXPECT_EQ(last.at("samples_per_pixel"), 100);
     EXPECT_EQ(last.at("samples_per_pixel_total"), 100);
@@ -45,10 +45,10 @@ TEST(Progress, JsonLines) {
 
 TEST(Progress, TerminalLine) {
     const std::string output = output_of(ProgressStyle::line);
-    EXPECT_LE(std::count(output.begin(), output.end(), '\r'), 22); // ten per second
-    EXPECT_EQ(output.find('\n'), std::string::npos);               // a single line that is overwritten
+    EXPECT_LE(std::count(output.begin(), output.end(), '\r'), 22);
+    EXPECT_EQ(output.find('\n'), std::string::npos);
     EXPECT_NE(output.find(" 50.5 %  ETA 0:00:01  50/100 spp  50.0 Msamples/s\r"), std::string::npos) << output;
-    EXPECT_TRUE(output.ends_with("\r\x1b[K")); // ends with an empty line
+    EXPECT_TRUE(output.ends_with("\r\x1b[K"));
 }
 
 TEST(Progress, TerminalLineFitsAnyWidth) {

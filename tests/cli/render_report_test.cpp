@@ -50,7 +50,7 @@ TEST(RenderReport, ErrorText) {
     report.target_error = 0.0043;
     EXPECT_EQ(cli::error_text(report), "error 0.42% (0.4% to 0.44%); target not reached: 0.44% is above 0.43% after 32 "
                                        "samples, raise --spp");
-    report.requested_sample_count = 64; // a signal stopped the program
+    report.requested_sample_count = 64;
     EXPECT_TRUE(cli::error_text(report).ends_with("0.44% is above 0.43% after 32 samples"));
 }
 
@@ -70,7 +70,7 @@ TEST(RenderReport, PixelsWithDifferentNumbersOfSamples) {
     EXPECT_TRUE(cli::error_text(report).ends_with("target reached after 37.3 (16 to 64) samples"));
     report.target_error = 0.0043;
     EXPECT_TRUE(cli::error_text(report).ends_with("after 37.3 (16 to 64) samples, raise --spp"));
-    report.window.part = {10, 20, 40, 30}; // whole rows are rendered
+    report.window.part = {10, 20, 40, 30};
     EXPECT_EQ(cli::stats_json(report).at("samples_per_second"), 256.0 * 30.0 * 37.3125 / 2.0);
 }
 
@@ -100,7 +100,7 @@ TEST(RenderReport, BytesAreToldInTheirUnit) {
     EXPECT_EQ(cli::memory_text(1023), "1023 B");
     EXPECT_EQ(cli::memory_text(1024), "1.0 KiB");
     EXPECT_EQ(cli::memory_text(15840), "15.5 KiB");
-    EXPECT_EQ(cli::memory_text((1 << 20) - 1), "1.0 MiB"); // instead of 1024.0 KiB
+    EXPECT_EQ(cli::memory_text((1 << 20) - 1), "1.0 MiB");
     EXPECT_EQ(cli::memory_text((1 << 20) - 60), "1023.9 KiB");
     EXPECT_EQ(cli::memory_text(std::uint64_t{3} << 30), "3.0 GiB");
     EXPECT_EQ(cli::memory_text(std::uint64_t{5} << 40), "5.0 TiB");

@@ -65,7 +65,7 @@ TEST(RenderTask, ToneMapping) {
     EXPECT_EQ(task_of({}, full_scene).scene.display.automatic_exposure, 0U);
     EXPECT_EQ(task_of({}, full_scene).scene.display.curve, std::uint32_t{PT_CURVE_AGX});
     EXPECT_EQ(task_of({}, full_scene).scene.display.gamma, 2.2);
-    EXPECT_EQ(task_of(full_options(), full_scene).scene.display.automatic_exposure, 1U); // "auto" counts as given
+    EXPECT_EQ(task_of(full_options(), full_scene).scene.display.automatic_exposure, 1U);
     EXPECT_EQ(task_of(full_options(), full_scene).scene.display.curve, std::uint32_t{PT_CURVE_NONE});
 }
 
@@ -78,7 +78,7 @@ TEST(RenderTask, ATargetErrorRaisesTheDefaultNumberOfSamplesAlone) {
 
 TEST(RenderTask, SamplesEndWithTheLastIndex) {
     RenderOptions options;
-    options.first_sample = 4294967286U; // ten numbers are left
+    options.first_sample = 4294967286U;
     EXPECT_EQ(task_of(options, R"({"render": {"spp": 10}})").sample_count, 10U);
     EXPECT_THROW(task_of(options, R"({"render": {"spp": 11}})"), cli::Failure);
     options.stopping.target_error = 0.01;

@@ -72,7 +72,7 @@ TEST(SceneFile, SpheresMayHaveColors) {
 
 TEST(SceneFile, ReadsEverything) {
     const SceneFile scene = parse_scene(small, "s.json");
-    EXPECT_EQ(scene.material_names, (std::vector<std::string>{"unused", "b", "a"})); // the file's order
+    EXPECT_EQ(scene.material_names, (std::vector<std::string>{"unused", "b", "a"}));
     ASSERT_EQ(scene.materials.size(), 3U);
     EXPECT_EQ(list(scene.materials[0].diffuse), (std::vector<float>{0, 0, 0}));
     EXPECT_EQ(list(scene.materials[1].diffuse), (std::vector<float>{0.25F, 0.25F, 0.25F}));
@@ -106,7 +106,7 @@ TEST(SceneFile, ReadsCameraAndSettings) {
     EXPECT_EQ(scene.camera.shutter_open, 0.25);
     EXPECT_EQ(scene.camera.shutter_close, 0.5);
     EXPECT_EQ(scene.render.width, 320U);
-    EXPECT_EQ(scene.render.height, 200U); // 2e2 is an integer.
+    EXPECT_EQ(scene.render.height, 200U);
     EXPECT_EQ(scene.display.exposure, -1.5);
     EXPECT_EQ(scene.display.curve, std::uint32_t{PT_CURVE_AGX});
     EXPECT_EQ(scene.display.gamma, 2.2);
@@ -121,7 +121,7 @@ TEST(SceneFile, EmptySceneHasDefaults) {
     const SceneFile scene = parse_scene("{}", "s.json");
     EXPECT_EQ(list(scene.camera.position), (std::vector<double>{0, 0, 1}));
     EXPECT_EQ(list(scene.camera.target), (std::vector<double>{0, 0, 0}));
-    EXPECT_EQ(scene.camera.vertical_fov, 0.0); // pt.h's default
+    EXPECT_EQ(scene.camera.vertical_fov, 0.0);
     EXPECT_EQ(scene.camera.shutter_close, 1.0);
     EXPECT_EQ(scene.render.struct_size, sizeof(pt_render));
     EXPECT_EQ(scene.render.width, 512U);
@@ -188,7 +188,7 @@ TEST(SceneFile, AMissingCommaIsToldWhereItBelongs) {
 }
 
 TEST(SceneFile, DeepNestingIsNotDangerous) {
-    constexpr std::size_t depth = 100'000; // would overflow the stack
+    constexpr std::size_t depth = 100'000;
     const std::string open(depth, '[');
     const std::string close(depth, ']');
     EXPECT_EQ(refusal("{\"spheres\":[" + open + close + "]}"), "1: spheres[0]: must be an object, is an array");
@@ -255,7 +255,7 @@ TEST(SceneFile, DuplicatesAreRefused) {
     EXPECT_EQ(refusal(R"({"film":{"width":1,"width":1}})"), "1: film.width: is given twice");
     EXPECT_EQ(refusal(R"({"materials":{"a":{},"b":{},"a":{}}})"), "1: materials.a: is given twice");
     EXPECT_EQ(refusal(R"({"spheres":[{"radius":1,"radius":2}]})"), "1: spheres[0].radius: is given twice");
-    EXPECT_EQ(refusal(R"({"materials":{"width":{}},"film":{"width":1}})"), ""); // keys in different objects
+    EXPECT_EQ(refusal(R"({"materials":{"width":{}},"film":{"width":1}})"), "");
 }
 
 TEST(SceneFile, RefusalsHaveTheLineOfTheValue) {
@@ -304,10 +304,9 @@ TEST(SceneFile, ExplainsWhatTheLibraryRefuses) {
     const SceneFile scene = parse_scene(small, "s.json");
     const auto explained = [&](const BrokenRule &rule) { return scene.explain(rule); };
     EXPECT_EQ(explained({"spheres", 3, "radius", none, "", "-1", "must be > 0"}),
-              "s.json:3: spheres[3].radius = -1: must be > 0"); // there are two
+              "s.json:3: spheres[3].radius = -1: must be > 0");
     EXPECT_EQ(explained({"spheres", 1, "radius", none, "", "-1", "x"}), "s.json:4: spheres[1].radius = -1: x");
-    EXPECT_EQ(explained({"materials", 2, "emission", 1, "", "-1", "x"}),
-              "s.json:7: materials.a.emission[1] = -1: x"); // a grey
+    EXPECT_EQ(explained({"materials", 2, "emission", 1, "", "-1", "x"}), "s.json:7: materials.a.emission[1] = -1: x");
     EXPECT_EQ(explained({"materials", 1, "glossiness", none, "", "-1", "must be >= 0"}),
               "s.json:6: materials.b.glossiness = -1: must be >= 0");
     EXPECT_EQ(explained({"camera", none, "target", 1, "", "inf", "must be finite"}),
@@ -343,7 +342,7 @@ TEST(SceneFile, OnlyTextIsRead) {
     EXPECT_EQ(refusal("{} // a remark \0"s), "1:16: a NUL byte: this is not UTF-8 text");
     EXPECT_EQ(refusal("\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR"s), "3:1: a NUL byte: this is not UTF-8 text");
     EXPECT_EQ(refusal("\xff\xfe{\0"s), "1:4: a NUL byte: this is not UTF-8 text"); // UTF-16
-    EXPECT_EQ(refusal("\0\1\0\0"s), "1:1: a NUL byte: this is not UTF-8 text");    // a font
+    EXPECT_EQ(refusal("\0\1\0\0"s), "1:1: a NUL byte: this is not UTF-8 text");
 }
 
 TEST(SceneFile, AByteOrderMarkOfUtf8DoesNoHarm) {

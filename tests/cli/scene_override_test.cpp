@@ -43,7 +43,7 @@ TEST(SceneOverride, TakesThePlaceOfAValue) {
     EXPECT_EQ(changed({"spheres[0].center[1]=-8e1"}).spheres[0].center[2], 3.0);
     EXPECT_EQ(changed({"materials.a.diffuse=1"}).materials[0].diffuse[2], 1.0F);
     EXPECT_EQ(changed({"camera.position=[3,0,0]"}).camera.position[0], 3.0);
-    EXPECT_EQ(changed({"spheres[0].radius=1", "spheres[0].radius=2"}).spheres[0].radius, 2.0); // the last wins
+    EXPECT_EQ(changed({"spheres[0].radius=1", "spheres[0].radius=2"}).spheres[0].radius, 2.0);
     const char *replaced = R"(spheres[0]={"center": [0,0,0], "radius": 3, "material": "b"})";
     EXPECT_EQ(changed({replaced, "spheres[0].radius=4"}).spheres[0].radius, 4.0);
     EXPECT_EQ(changed({replaced}).spheres[0].material, 1U);
@@ -87,7 +87,7 @@ TEST(SceneOverride, WhatDoesNotFitIsRefused) {
     expect("spheres[0].radius.x=1", "the scene has no spheres[0].radius.x");
     expect("camra.up=1", "unknown key \"camra\", did you mean \"camera\"?");
     expect("spheres.a=1", "must be an array, is an object");
-    expect("spheres[0].radius=[1", "spheres[0].radius: must be a number, is \"[1\""); // not JSON
+    expect("spheres[0].radius=[1", "spheres[0].radius: must be a number, is \"[1\"");
     expect("camera.up=[0,0]", "camera.up: must be an array of 3 numbers, has 2");
 }
 
@@ -186,11 +186,11 @@ TEST(Animation, SpheresMoveWithinAFrame) {
         return parse_scene(moving, "s.json", pt::overrides_of_frame(scene, frame)).spheres.at(0);
     };
     EXPECT_EQ(list(sphere(9).center), (Numbers{0, 0, 0}));
-    EXPECT_EQ(list(sphere(9).motion), (Numbers{0, 0, 0})); // replaces the file's motion
+    EXPECT_EQ(list(sphere(9).motion), (Numbers{0, 0, 0}));
     EXPECT_EQ(list(sphere(11).center), (Numbers{1, 0, 0}));
     EXPECT_EQ(list(sphere(11).motion), (Numbers{1, 0, 0}));
     EXPECT_EQ(list(sphere(12).center), (Numbers{2, 0, 0}));
-    EXPECT_EQ(list(sphere(12).motion), (Numbers{0, 3, 0})); // continues in the other array
+    EXPECT_EQ(list(sphere(12).motion), (Numbers{0, 3, 0}));
     EXPECT_EQ(list(sphere(14).motion), (Numbers{0, 0, 0}));
 }
 

@@ -160,8 +160,8 @@ TEST(SelftestScene, AWeightThatIsWrongByTwoPercentMovesTheMeanByTwiceTheBound) {
     ASSERT_EQ(scenes.size(), 3U);
     struct Light {
         TwoWays ways;
-        double factor; // radiance of the lamps
-        double other;  // mean with another weight
+        double factor;
+        double other;
     };
     const std::vector<Light> lights{{light_of_lamps(1, 0.0, 0.5, 4), 4.0, 0.0},
                                     {light_of_lamps(5, pi * 50.0 / 180.0, 0.42, 1), 1.0, 0.0},

@@ -101,7 +101,7 @@ class ShaderDir(WatchTest):
         self.assertEqual(pt.end(), 0)
 
     def test_a_binding_outside_the_layout_is_refused(self):
-        self.write("shaders/phong.glsl", "\ufeff" + self.read("shaders/phong.glsl"))  # byte order marks are ignored
+        self.write("shaders/phong.glsl", "\ufeff" + self.read("shaders/phong.glsl"))
         self.expect(0, "render", "s.json", "-o", "a.png", "--shader-dir", "shaders")
         kernel = self.edited("pathtrace.comp", "layout(local_size_x", "layout(set = 0, binding = 9) buffer Mine "
                              "{ vec4 mine[]; };\nlayout(local_size_x").replace("* held.film_scale", "* (held.film_scale + mine[0].x)")

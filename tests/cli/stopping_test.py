@@ -12,7 +12,7 @@ SLOW = {"FAKE_PT_SAMPLE_MS": 20}
 class ExitCodes(CommandLineTest):
     def test_every_combination(self):
         kept = ("--checkpoint", "c.ptfilm")
-        not_kept = ("--checkpoint", "none/c.ptfilm")  # a missing folder
+        not_kept = ("--checkpoint", "none/c.ptfilm")
         table = [
             # options, exit code, reason for the end
             (("--spp", "20"), 0, "samples"),

@@ -53,7 +53,7 @@ class RealDeviceWidth(CommandLineTest):
                     "LP_NATIVE_VECTOR_WIDTH, or begin anew")
 
     def test_the_picture_is_the_same(self):
-        for width in 256, 512:  # A cache would keep code for one width.
+        for width in 256, 512:
             name = self.render(f"{width}.exr", LP_NATIVE_VECTOR_WIDTH=width, MESA_SHADER_CACHE_DISABLE="true")
             self.assertIn(f"{width} bits", name)
         self.assertEqual(read_exr_blocks(self.path("256.exr")), read_exr_blocks(self.path("512.exr")))

@@ -81,7 +81,7 @@ class Steps:
         first = self.work / "installed"
         run(self.options.cmake, "--install", self.options.build, "--prefix", first)
         require(files_with(first, first) == [], f"the prefix is in installed files: {files_with(first, first)}")
-        trace = first / "trace"  # negative control
+        trace = first / "trace"
         trace.write_text(f"prefix={first}")
         require(files_with(first, first) == [f"{trace}: {first}"], "a file that names the prefix went unnoticed")
         trace.unlink()
@@ -210,7 +210,7 @@ class Steps:
         reuse = ";".join(map(str, (sys.executable, "-B", HERE / "reuse.py", commands, self.options.build, build / "pt")))
         self.configure_subproject(build, f"-DCMAKE_CXX_COMPILER_LAUNCHER={reuse}", *(f"-D{each}" for each in settings),
                                   "-DCMAKE_INTERPROCEDURAL_OPTIMIZATION=ON", "-DCMAKE_CXX_FLAGS=-flto=auto")
-        said = run(self.options.cmake, "--build", build, "-j1")  # The other core runs another test.
+        said = run(self.options.cmake, "--build", build, "-j1")
         require("warning" not in said, said)
         symbols = run("nm", "--defined-only", "--extern-only", "--format=posix", build / "pt" / "lib" / "libpt.a")
         exported = (SOURCE / "tests/abi/exported_symbols.txt").read_text().split()
@@ -283,7 +283,7 @@ class Steps:
         folder = self.folder("debian")
         run(self.options.cpack, "-G", "DEB", "-B", folder, cwd=self.options.build)
         packages = {path.name.split("_")[0]: path for path in folder.glob("*.deb")}
-        compiler = "libpt0.4-glsl"  # optional
+        compiler = "libpt0.4-glsl"
         expected = ["libpt0.4", "libpt0.4-dev", *([compiler] if compiler in packages else []), "pt", "pt-image-formats"]
         require(sorted(packages) == expected, f"the packages are {sorted(packages)}")
         exact = f"libpt0.4 (= {self.options.version})"

@@ -136,7 +136,7 @@ TEST(Denoise, StatesTheSquareOfItsError) {
         const double chosen = std::string(wish) == "identity" ? 0.0 : stated.mean_true;
         EXPECT_LT(moments.mean, bound + chosen / 3) << wish;
         EXPECT_GT(moments.mean, -bound - 0.25 * chosen) << wish;
-        EXPECT_LT(bound, 0.15 * stated.mean_true) << wish; // or the comparison proves nothing
+        EXPECT_LT(bound, 0.15 * stated.mean_true) << wish;
         for (const double ratio : {stated.mean_ratio, stated.mean_relative_ratio}) {
             EXPECT_GT(ratio, 0.87) << wish; // sqrt(1 - 1/4)
             EXPECT_LT(ratio, 1.3) << wish;
@@ -182,7 +182,7 @@ TEST(Denoise, IsNoWorseThanTheRawImage) {
 
 struct Level {
     double light;
-    double noise; // relative
+    double noise;
 };
 
 // The image has stripes of two levels. On stripes of the first level, each half has a mark at every fifth place with
@@ -235,7 +235,7 @@ TEST(Denoise, KeepsMarksThatHalvesHaveByChance) {
 // steps.
 TEST(Denoise, HasNoSeams) {
     constexpr float slope = 0.02F;
-    constexpr std::size_t noisy_width = 100; // ends inside a tile
+    constexpr std::size_t noisy_width = 100;
     const auto ramp_at = [](std::size_t x, std::size_t y) {
         return 1.0F + slope * static_cast<float>(y < height / 2 ? x : width - 1 - x);
     };
@@ -301,7 +301,7 @@ TEST(Denoise, MovesNoValueBeyondWhatHalvesSupport) {
 TEST(Denoise, KeepsTheMeanWithinItsNoise) {
     for (const char *wish : {"darken", "cut"}) {
         Denoising denoising(3, 0.2);
-        for (std::size_t i = 0; i < value_count; i += 300) // in alternating halves
+        for (std::size_t i = 0; i < value_count; i += 300)
             (i % 600 == 0 ? denoising.first : denoising.second)[i] += 60.0F;
         ASSERT_EQ(denoising.run(wish), PT_OK);
         double square = 0.0;

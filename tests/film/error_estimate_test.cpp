@@ -78,7 +78,7 @@ TEST(ErrorEstimate, TellsLampsFromRareSamples) {
         std::vector<float> errors(radiance.size(), 0.0F);
         for (std::size_t i = 0; i < met_once + met_again; ++i)
             for (std::size_t channel = 0; channel < 3; ++channel) {
-                const std::size_t pixel = i % 8 * 8 + 4 + (i / 8 * 8 + 4) * side; // one pixel in each tile
+                const std::size_t pixel = i % 8 * 8 + 4 + (i / 8 * 8 + 4) * side;
                 radiance[3 * pixel + channel] = 100.0F;
                 errors[3 * pixel + channel] = i < met_once ? 100.0F : 0.0F;
             }
@@ -152,10 +152,10 @@ TEST(ErrorEstimate, CountsLightThatMayBeUnseen) {
     const pt::ErrorEstimate found = estimator.result();
     const double seen = 1.0 / (159.0 * 159.0 + 0.01);
     constexpr double b = 10.0 / 0.1;
-    constexpr double unseen = 0.055 * b * b / (4.0 * (3.0 + 0.81 * b + 0.9 * 1000.0)); // light of two columns
+    constexpr double unseen = 0.055 * b * b / (4.0 * (3.0 + 0.81 * b + 0.9 * 1000.0));
     EXPECT_DOUBLE_EQ(found.relative_rmse.estimate, raised(std::sqrt((seen + 2.0 * unseen) / 32.0), 32.0));
     EXPECT_EQ(found.uncertain, unsigned{PT_UNCERTAIN_UNSEEN});
-    EXPECT_EQ(estimate(32, radiance, errors).uncertain, 0U); // has more samples
+    EXPECT_EQ(estimate(32, radiance, errors).uncertain, 0U);
 }
 
 TEST(ErrorEstimate, OfPlainHaltonIsStatedAFifthLarger) {

@@ -55,7 +55,7 @@ Part random_part(std::mt19937 &random, std::uint32_t first) {
     const auto [width, height] = grids[random() % std::size(grids)];
     std::vector<pt::Rectangle> tiles = grid(width, height);
     if (tiles.size() > 1 && random() % 3 == 0)
-        tiles.erase(tiles.begin() + static_cast<std::ptrdiff_t>(random() % tiles.size())); // missing pixels
+        tiles.erase(tiles.begin() + static_cast<std::ptrdiff_t>(random() % tiles.size()));
     const bool is_uniform = random() % 2 == 0;
     Part part;
     std::set<std::uint32_t> indices;

@@ -47,7 +47,7 @@ public:
 private:
     pt::WideSum sum() {
         const int bits = static_cast<int>(number() % static_cast<std::uint64_t>(usual_.most_bits + 1));
-        const int few = number() % 2 == 0 ? 26 : 128; // leading bits kept
+        const int few = number() % 2 == 0 ? 26 : 128;
         const pt::WideSum any = (pt::WideSum{number()} << 64 | number()) >> (128 - std::max(bits, 1));
         const int cut = std::max(bits - few, 0);
         return bits == 0 ? 0 : any >> cut << cut;

@@ -169,7 +169,7 @@ TEST_F(SavedFilm, AContextGoesOnWithTheSamplesThatAreMissing) {
     set_up(context(), settings(0));
     accumulate_on(context(), 10);
     ASSERT_EQ(add(context(), late), PT_OK) << pt_last_error(context());
-    accumulate_on(context(), 7); // samples 10 to 16
+    accumulate_on(context(), 7);
     ASSERT_EQ(add(context(), middle), PT_OK) << pt_last_error(context());
     accumulate_on(context(), 13);
     EXPECT_EQ(picture_of(context()).stats.sample_count, 80U);

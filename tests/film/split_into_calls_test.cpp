@@ -17,7 +17,7 @@
 
 namespace {
 
-constexpr uint32_t width = 200; // not a multiple of the workgroup size
+constexpr uint32_t width = 200;
 constexpr uint32_t height = 75;
 
 using Image = std::vector<float>;

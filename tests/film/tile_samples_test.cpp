@@ -99,7 +99,7 @@ TEST(SampleSet, ReachesToTheLastIndex) {
     EXPECT_EQ(pt::text_of(set), "[0, 7), [8, 4294967296)");
 }
 
-constexpr TileGrid small_grid{21, 10}; // three columns, two rows
+constexpr TileGrid small_grid{21, 10};
 
 TEST(TileGrid, EdgesHaveSmallerTiles) {
     EXPECT_EQ(small_grid.columns(), 3U);

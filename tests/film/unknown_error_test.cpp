@@ -61,7 +61,7 @@ TEST_F(UncertainTest, WhileALampIsHardlyMetByChance) {
         set_up(20.0, estimator);
         EXPECT_EQ(after(16) & unmet, 0U) << estimator;
     }
-    set_up(20.0, PT_ESTIMATOR_BSDF, 1); // no directions that could hit the lamp
+    set_up(20.0, PT_ESTIMATOR_BSDF, 1);
     EXPECT_EQ(after(16) & unmet, 0U);
 }
 

@@ -32,7 +32,7 @@ struct Input {
 
     // Columns may hold the last spheres. Their pointers point into the structs.
     struct Columns {
-        std::uint32_t count = 0; // spheres in columns
+        std::uint32_t count = 0;
         bool has_colors = false;
         std::uint32_t claimed = none;   // index of the column that `claim` replaces
         pt_column claim{};              // `data` is NULL, or is replaced by the column's own pointer
@@ -41,7 +41,7 @@ struct Input {
 
         static constexpr std::uint32_t none = 5;
     } columns;
-    mutable std::vector<std::uint8_t> array_bytes; // made by scene()
+    mutable std::vector<std::uint8_t> array_bytes;
     std::array<std::uint32_t, 3> struct_sizes{sizeof(pt_scene), sizeof(pt_camera), sizeof(pt_render)};
     std::uint8_t tail_byte = 0;
 

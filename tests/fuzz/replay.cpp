@@ -22,7 +22,7 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::size_t max_size = 4096;
 
-std::mt19937 mutation_random; // default seed
+std::mt19937 mutation_random;
 
 // Read by the signal handler.
 const Bytes *present_input = nullptr;

@@ -37,7 +37,7 @@ constexpr std::uint32_t lattice_size = 16;
 
 struct Pixels {
     std::vector<std::uint32_t> objects;
-    std::vector<float> depths, normals, albedos; // three numbers per pixel
+    std::vector<float> depths, normals, albedos;
 
     bool operator==(const Pixels &) const = default;
 };

@@ -57,7 +57,7 @@ TEST_F(FirstHit, RectanglesRowsAndDevicesAgree) {
     const Given given = many(true);
     set(context(), given, picture());
     const Context hurried = create_context([](pt_create_info &info) { info.submit_milliseconds = 1; });
-    ASSERT_TRUE(hurried); // Each piece has some hundred pixels.
+    ASSERT_TRUE(hurried);
     set(hurried.get(), given, picture());
     const Context shared = create_context([](pt_create_info &) {},
                                           [](auto *info, auto **made) { return create_shared(2, *info, made, true); });

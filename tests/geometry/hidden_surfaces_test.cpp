@@ -22,10 +22,10 @@ pt::MovingBall ball(double x, double radius, double way = 0.0) {
 TEST(LiesApart, OfBallsIsBesideOrWithin) {
     EXPECT_TRUE(lies_apart(ball(0, 1), ball(3, 1)));
     EXPECT_FALSE(lies_apart(ball(0, 1), ball(1.5, 1)));
-    EXPECT_TRUE(lies_apart(ball(0, 1), ball(0.5, 2)));  // A shell around the ball.
-    EXPECT_FALSE(lies_apart(ball(0, 2), ball(0.5, 1))); // A ball inside.
-    EXPECT_FALSE(lies_apart(ball(0, 1), ball(1.5, 2))); // The surfaces intersect.
-    EXPECT_FALSE(lies_apart(ball(0, 1), ball(2, 1)));   // The surfaces touch.
+    EXPECT_TRUE(lies_apart(ball(0, 1), ball(0.5, 2)));
+    EXPECT_FALSE(lies_apart(ball(0, 2), ball(0.5, 1)));
+    EXPECT_FALSE(lies_apart(ball(0, 1), ball(1.5, 2)));
+    EXPECT_FALSE(lies_apart(ball(0, 1), ball(2, 1)));
     EXPECT_TRUE(lies_apart(ball(0, 1), ball(2.001, 1)));
     EXPECT_FALSE(lies_apart(ball(0, 1), ball(2.00001, 1))); // float32 cannot separate the surfaces.
 }
@@ -154,7 +154,7 @@ TEST(HiddenSurfaces, AreNotInTheTree) {
     ASSERT_EQ(prepared.scene.indices.size(), 10U);
     for (std::uint32_t i = 0; i < 10; ++i)
         EXPECT_EQ(prepared.scene.indices[i], 10 * i + 3);
-    EXPECT_FALSE(prepared_scene_of(checked_scene_of(scene), 91).tree); // Only visible spheres count.
+    EXPECT_FALSE(prepared_scene_of(checked_scene_of(scene), 91).tree);
 }
 
 } // namespace

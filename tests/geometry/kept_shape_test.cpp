@@ -203,7 +203,7 @@ TEST(KeptShape, IsTakenFromTheSceneBefore) {
         return pt::PreparedScene({materials, pt::SphereSource(spheres, {}), {}}, 50, before, nobody);
     };
     Spheres spheres = heap(ball_count, 0.0);
-    spheres[100] = {{0, -1e4, 0}, 1e4 - 2, {0, 0, 0}, 0, 0}; // an outlying sphere
+    spheres[100] = {{0, -1e4, 0}, 1e4 - 2, {0, 0, 0}, 0, 0};
     const pt::PreparedScene first = prepared(spheres, nullptr);
     const Spheres later = moved(spheres, 0.02);
     const pt::PreparedScene with_shape = prepared(later, &first);

@@ -114,7 +114,7 @@ TEST_F(Lens, WithoutADiameterIsAPinhole) {
         read(pinhole, first_hits);
         read(lens, through_lens);
         for (std::size_t i = 0; i < first_hits.size(); ++i) {
-            const bool is_equal = through_lens[i] == first_hits[i]; // also equal for infinite depths
+            const bool is_equal = through_lens[i] == first_hits[i];
             EXPECT_TRUE(is_equal || std::abs(through_lens[i] - first_hits[i]) <= 1e-6 * std::max(1.0F, first_hits[i]))
                 << quantity << ": " << through_lens[i] << " and " << first_hits[i];
         }

@@ -163,7 +163,7 @@ TEST(SphereOrder, TellsHowFarItIs) {
         progress.enter(0.5, 2.0 * many);
         pt::tree_shape(items_of(many, kind.ball), own_number, progress);
         EXPECT_GT(told.shares.size(), 5U);
-        progress.add(0.0, std::size_t{1} << 30); // enough to force a report
+        progress.add(0.0, std::size_t{1} << 30);
         EXPECT_EQ(told.shares.back(), 0.25);
         EXPECT_TRUE(std::ranges::is_sorted(told.shares));
     }

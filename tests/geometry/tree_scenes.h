@@ -86,7 +86,7 @@ private:
             sphere.radius = 0.25;
             break;
         }
-        case 5: // distances from tiny to huge
+        case 5:
             sphere.center *= std::pow(10.0, uniform(0.0, 3.0));
             break;
         case 6:

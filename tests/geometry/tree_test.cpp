@@ -18,7 +18,7 @@ using FilmWords = KernelRender::FilmWords;
 
 std::size_t scene_count() {
     const char *const wanted = std::getenv("PT_TEST_TREE_SCENES");
-    return wanted ? std::stoul(wanted) : 8; // one scene of each kind
+    return wanted ? std::stoul(wanted) : 8;
 }
 
 std::size_t most_spheres() {

@@ -110,7 +110,7 @@ TEST_P(Invariance, OrderOfMaterials) {
     reordered.reverse_materials();
     expect_same_bits(reordered);
     InvarianceScene added = scene();
-    added.materials.push_back(added.materials[0]); // unused
+    added.materials.push_back(added.materials[0]);
     expect_same_bits(added);
 }
 

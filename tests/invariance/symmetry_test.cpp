@@ -30,7 +30,7 @@ std::vector<std::size_t> pixels_of_block(std::size_t block) {
 }
 
 struct Agreement {
-    double mean_square_t; // over the blocks
+    double mean_square_t;
     double largest_t;
 };
 
@@ -41,7 +41,7 @@ Agreement agreement(const Batches &a, const Batches &b) {
         const std::vector<std::size_t> pixels = pixels_of_block(block);
         const Estimate first = estimate_over(a, pixels);
         const Estimate second = estimate_over(b, pixels);
-        const double rounding = 1e-6 * first.mean; // as in deviation()
+        const double rounding = 1e-6 * first.mean;
         const double t = (first.mean - second.mean) / std::hypot(first.standard_error, second.standard_error, rounding);
         result.mean_square_t += t * t / static_cast<double>(blocks);
         result.largest_t = std::max(result.largest_t, std::abs(t));
@@ -77,7 +77,7 @@ protected:
     template <typename Restore>
     void expect_same_image(InvarianceScene changed, const Restore &restore) {
         const Agreement same = agreement(original(), restore(batches_of(changed, 1000)));
-        changed.multiply_diffuse(0.97F); // negative control
+        changed.multiply_diffuse(0.97F);
         const Agreement darker = agreement(original(), restore(batches_of(changed, 2000)));
         std::printf("mean t^2 %.3f (expected %.3f), largest |t| %.2f; 3%% darker %.1f, %.1f\n", same.mean_square_t,
                     expected_mean_square_t, same.largest_t, darker.mean_square_t, darker.largest_t);

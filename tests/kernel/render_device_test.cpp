@@ -46,7 +46,7 @@ protected:
     }
 };
 
-constexpr std::array<std::uint32_t, 6> all_tiles = {0, 1, 2, 3, 4, 5}; // The last tiles are smaller.
+constexpr std::array<std::uint32_t, 6> all_tiles = {0, 1, 2, 3, 4, 5};
 
 std::array<double, 6> sums_of_tiles(const std::function<void(const pt::ErrorReader::Receive &)> &read) {
     std::array<double, 6> sums{};

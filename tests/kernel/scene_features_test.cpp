@@ -157,9 +157,9 @@ TEST(FeaturePlanesBlock, IsWhetherALampIsNotAllOnTheSideOfTheCamera) {
 }
 
 TEST(FeaturePlanesBlock, IsByAnyPlaneAndAnyLamp) {
-    const pt::Plane tilted = {{0.6, 0, 0.8}, 7 - glm::dot(glm::dvec3(0.6, 0, 0.8), eye), dark}; // 7 from the camera
+    const pt::Plane tilted = {{0.6, 0, 0.8}, 7 - glm::dot(glm::dvec3(0.6, 0, 0.8), eye), dark};
     const pt::Sphere near = lamp_at({0, 1, -5}, 1);
-    const pt::Sphere far = lamp_at({-6, 1, -8}, 1); // 3 behind the tilted plane
+    const pt::Sphere far = lamp_at({-6, 1, -8}, 1);
     const pt::Sphere across = lamp_at({-4.2, 1, -5.6}, 1);
     const pt::Sphere high = lamp_at({0, 6, -5}, 1);
     EXPECT_FALSE(planes_block({near}, {tilted, floor_at(-4), floor_at(4)}));

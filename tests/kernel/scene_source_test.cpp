@@ -84,7 +84,7 @@ TEST_F(SceneSource, KeepsTheBitsOfADiffuseSceneWithManyLamps) {
 
     // Negative control: the last bit of a radius changes.
     std::vector<glm::vec4> words = render.words();
-    float &radius = words[render.features()[gpu::ID_LAMP_COUNT]].w; // radius of the first ball
+    float &radius = words[render.features()[gpu::ID_LAMP_COUNT]].w;
     radius = std::nextafter(radius, std::numeric_limits<float>::infinity());
     EXPECT_FALSE(same.holds(gpu::SCENE_IN_UNIFORM, words));
     EXPECT_FALSE(same.holds(gpu::SCENE_IN_CONSTANTS, words));

@@ -19,7 +19,7 @@
 
 namespace {
 
-constexpr double overhead = 1e-4; // seconds per submission
+constexpr double overhead = 1e-4;
 constexpr double paths_of_tile = pt::gpu::WORKGROUP_SIZE;
 
 using Device = std::function<double(double paths_before, double paths)>;
@@ -37,7 +37,7 @@ Device throttled_device(double paths_per_second, double paths_until_then) {
 
 Device noisy_device(double paths_per_second) {
     return [=, generator = std::mt19937(1)](double, double paths) mutable {
-        const double exponent = std::ldexp(static_cast<double>(generator()), -31) - 1.0; // in [-1, 1)
+        const double exponent = std::ldexp(static_cast<double>(generator()), -31) - 1.0;
         return (overhead + paths / paths_per_second) * std::pow(1.5, exponent);
     };
 }
@@ -175,7 +175,7 @@ TEST(Schedule, HoldsTheLargestSampleCount) {
 
 TEST(Schedule, SlicesAreLargerThanHalfOfTheBudget) {
     const pt::Schedule schedule(usual_limits());
-    EXPECT_EQ(schedule.tiles(257, 1), 129U); // one tile more than the budget
+    EXPECT_EQ(schedule.tiles(257, 1), 129U);
     EXPECT_EQ(schedule.tiles(257 - 129, 1), 128U);
     EXPECT_EQ(schedule.samples(257, 10), 1U);
     EXPECT_EQ(schedule.samples(64, 10), 4U);

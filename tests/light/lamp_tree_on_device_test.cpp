@@ -33,7 +33,7 @@ TEST(LampTreeProbabilities, AreThoseOfAReferenceInDouble) {
                 stated_sum += stated[lamp];
             }
             EXPECT_NEAR(sum, 1.0, 1e-12) << name;
-            EXPECT_NEAR(stated_sum, 1.0, 64 * 0x1p-24) << name; // a few roundings in each level
+            EXPECT_NEAR(stated_sum, 1.0, 64 * 0x1p-24) << name;
         }
     }
 }

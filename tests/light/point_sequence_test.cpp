@@ -137,7 +137,7 @@ TEST(Sobol, DimensionsDiffer) {
 }
 
 TEST(Sobol, NegativeControls) {
-    const Coordinates unaligned = sobol_coordinates(1, net_size / 2, 5); // 512 points across the boundary of a block
+    const Coordinates unaligned = sobol_coordinates(1, net_size / 2, 5);
     EXPECT_TRUE(fills_intervals(sobol_coordinates(0, net_size / 2, 5), net_digits - 1));
     EXPECT_FALSE(fills_intervals(unaligned, net_digits - 1));
     Coordinates one_bit_off = sobol_coordinates(0, net_size, 5);

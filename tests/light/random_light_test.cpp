@@ -18,7 +18,7 @@ namespace {
 
 using namespace light_in_double;
 
-constexpr std::uint32_t material_count = 4; // each also as a hidden material
+constexpr std::uint32_t material_count = 4;
 constexpr std::uint32_t lamp = 2;
 constexpr std::uint32_t glossy = 3;
 

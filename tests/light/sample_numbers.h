@@ -50,7 +50,7 @@ inline Blocks as_integers(const std::vector<glm::vec4> &numbers) {
 }
 
 inline constexpr std::uint32_t table_blocks = 4;
-inline constexpr std::uint32_t shared_blocks = 1; // for scenes without lamps
+inline constexpr std::uint32_t shared_blocks = 1;
 inline constexpr std::uint32_t most_blocks = 6000;
 
 inline pt::PointLayout layout_of(std::uint32_t branches) {

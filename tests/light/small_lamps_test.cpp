@@ -136,7 +136,7 @@ TEST(SmallLamps, AreThoseThatTheCameraSees) {
     EXPECT_EQ(count_of({seen, sphere_at(10, 10, 99, 0.4, hidden)}), alone) << "behind one that is not seen";
     EXPECT_EQ(count_of({seen, sphere_at(0, 0, 0, 50, dark)}), 0U) << "beyond a ball about the camera";
     EXPECT_EQ(count_of({seen, sphere_at(0, 0, 0, 500, dark)}), alone) << "in a ball about both";
-    const pt_plane wall{{0.0, 0.0, 1.0}, 47.0, dark, 0}; // at depth 50
+    const pt_plane wall{{0.0, 0.0, 1.0}, 47.0, dark, 0};
     EXPECT_EQ(count_of({seen}, {wall}), 0U) << "behind a plane";
 }
 
@@ -176,7 +176,7 @@ TEST(SmallLamps, ShineThroughVeils) {
     const auto small = pieces_of({sphere_at(0.5, 0.5, 100, radius, lamp)}, {}, camera, true, veils);
     ASSERT_EQ(small.size(), 1U);
     EXPECT_NEAR(small[0].share, 0.8 * 0.4 * size, thin);
-    EXPECT_NEAR(small[0].lamp_share, 0.8 * 0.4 * size, 1e-7); // Radii are float32.
+    EXPECT_NEAR(small[0].lamp_share, 0.8 * 0.4 * size, 1e-7);
     const auto large = pieces_of({sphere_at(0.5, 0.5, 100, 2.0, lamp)}, {}, camera, true, veils);
     EXPECT_NEAR(share_of(large, 200, 99), 0.8 * 0.4, 0.01);
     EXPECT_TRUE(pieces_of({sphere_at(50.5, 0.5, 100, radius, lamp)}, {}, camera, true, veils).empty()) << "opaque";
@@ -208,7 +208,7 @@ TEST(SmallLamps, AddWhatSamplesShouldHaveMet) {
                                  [=](const auto &piece) { return piece.x == 3 ? first : second; });
     };
     const double variance = 0.125 * 0.875;
-    const pt::UnmetSquares found = with(16, 16); // The second lamp expects 8 hits.
+    const pt::UnmetSquares found = with(16, 16);
     EXPECT_DOUBLE_EQ(found.square.sum, variance * (64.0 + 256.0) / 16.0);
     EXPECT_DOUBLE_EQ(found.square.hits(), 16.0 * 0.125);
     EXPECT_DOUBLE_EQ(found.relative_square.sum, variance * (64.0 / 1.01 + 256.0 / 4.01) / 16.0);

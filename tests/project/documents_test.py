@@ -7,7 +7,7 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGES = [path for folder in (".", "cli", "lib", "shaders", "tests") for path in (ROOT / folder).glob("*.md")]
 PAGES += [*(ROOT / "tests").glob("*/**/*.md"), *(ROOT / "lib").glob("*/*.md")]
-CURRENT = [page for page in PAGES if page.name not in ("CHANGELOG.md", "NOTEBOOK.md")]  # pages without history
+CURRENT = [page for page in PAGES if page.name not in ("CHANGELOG.md", "NOTEBOOK.md")]
 CODE = re.compile(r"\.(h|c|cpp|glsl|comp|py|json|csv|cmake|sh)$|^CMakeLists\.txt$")
 
 # The largest numbers of words: of each page, and of all pages except the changes.
@@ -126,7 +126,7 @@ class Documents(unittest.TestCase):
 
     def test_comments_name_files_that_exist(self):
         files = {path.name for path in ROOT.rglob("*.*") if not path.relative_to(ROOT).parts[0].startswith((".", "build"))}
-        files.add("sysexits.h")  # header of the system
+        files.add("sysexits.h")
         for path in (path for path in code_files() if path.suffix in (".h", ".cpp", ".glsl", ".comp")):
             comments = " ".join(re.findall(r"//[^\n]*|/\*.*?\*/", path.read_text(encoding="utf-8"), re.DOTALL))
             names = re.findall(r"([\w-]+\.(?:h|cpp|glsl|comp|py|md|cmake|sh))\b", comments)

@@ -44,7 +44,7 @@ class Columns(unittest.TestCase):
         np.testing.assert_array_equal(radiance(self.context, one_by_one), radiance(self.context, scene_of(without)))
 
     def test_ends_make_capsules(self):
-        self.check((), end=POSITIONS)  # an axis of no length
+        self.check((), end=POSITIONS)
         ends = POSITIONS + np.float32([0.3, 0, 0])
         capsules = radiance(self.context, scene_of(pt.SphereArray(POSITIONS, RADII, INDICES, color=COLORS, end=ends)))
         self.assertTrue(self.context.stats().features & pt.Feature.CAPSULES)

@@ -48,7 +48,7 @@ class Compare(unittest.TestCase):
         self.assertEqual(pt.compare(first.image(), second.image()), expected)
         self.assertEqual(pt.compare(first.readback(), second.readback()).light, expected.light)
         image = first.image()
-        image.raw, image.radiance = image.radiance, image.radiance * 2  # looks like a denoised image
+        image.raw, image.radiance = image.radiance, image.radiance * 2
         self.assertEqual(pt.compare(image, second), expected)
 
     def test_an_estimator_that_may_have_missed_lamps(self):

@@ -53,7 +53,7 @@ class Denoise(unittest.TestCase):
         image = self.rendered(4096, target_error=first.error_bounds[1] / 2)
         self.assertLessEqual(image.error_bounds[1], first.error_bounds[1] / 2)
         self.assertTrue(32 < image.stats.sample_count < 4096)
-        np.testing.assert_array_equal(image, self.rendered(image.stats.sample_count))  # in one run
+        np.testing.assert_array_equal(image, self.rendered(image.stats.sample_count))
         self.assertEqual(self.rendered(40, target_error=1e-9).stats.sample_count, 40)
 
     def test_figures(self):
@@ -78,7 +78,7 @@ class Denoise(unittest.TestCase):
             pt.denoise(grey, grey[:2], grey, grey)
         with self.assertRaisesRegex(pt.InvalidArgumentError, r"denoise.first\[0\] = nan"):
             pt.denoise(grey * np.nan, grey, grey, grey)
-        with unittest.mock.patch.dict(os.environ, FAKE_OIDN="gpu"):  # offers no CPU
+        with unittest.mock.patch.dict(os.environ, FAKE_OIDN="gpu"):
             with self.assertRaisesRegex(pt.UnsupportedError, "as planted"):
                 pt.denoise(grey, grey, grey, grey)
             pt.denoise(grey, grey, grey, grey, any_device=True)

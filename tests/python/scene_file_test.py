@@ -69,12 +69,12 @@ class Reading(unittest.TestCase):
             self.assertEqual(self.program("compare", "sum.exr", "one.exr", "--max-mse", "0"), 0)
         self.assertEqual([file.name for file in loaded.files], ["c.npy", "r.npy", "k.npy", "r.npy", "c.npy"])
         self.film_of(self.written({**scenes[-1], "planes": []}))
-        self.assertEqual(self.program("merge", "a.ptfilm", "b.ptfilm", "-o", "sum.exr"), 2)  # The second film is of another scene.
+        self.assertEqual(self.program("merge", "a.ptfilm", "b.ptfilm", "-o", "sum.exr"), 2)
 
     def test_arrays_are_the_file_s_memory(self):
         array = pt.load(self.written({**ALL_KINDS, "spheres": COLUMNS})).scene.sphere_arrays[0]
         self.assertEqual(array.copied, ())
-        np.testing.assert_array_equal(array.center, np.load(self.folder / "c.npy"))  # The file object no longer exists.
+        np.testing.assert_array_equal(array.center, np.load(self.folder / "c.npy"))
         np.testing.assert_array_equal(array.color, np.load(self.folder / "k.npy"))
         with self.assertRaises(ValueError):
             array.center[0] = 0

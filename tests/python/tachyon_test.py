@@ -56,7 +56,7 @@ class Sections(unittest.TestCase):
         self.assertEqual((found.settings.width, found.settings.height), (64, 32))
         self.assertEqual(found.camera.position, (1, 2, 3))
         self.assertEqual(found.camera.up, (0, 1, -0.5))
-        self.assertAlmostEqual(math.tan(found.camera.vertical_fov / 2), 1, 14)  # half of 1 / ZOOM
+        self.assertAlmostEqual(math.tan(found.camera.vertical_fov / 2), 1, 14)
         # The target is the point on the view's axis nearest to (1.5, 2, -7), the middle of both spheres.
         self.assertEqual(found.camera.target, (1, 2, -7))
         self.assertEqual(found.notes, [])
@@ -79,7 +79,7 @@ class Sections(unittest.TestCase):
         self.assertEqual((plane.normal, plane.offset), ((0, 2, -1), 6))  # 2 y - z + 6 is 0 at (0, -5, -4)
         gold, mirror = (scene.materials[index] for index in spheres.material)
         self.assertEqual(scene.materials[plane.material], gold)
-        self.assertEqual(gold, pt.Material((0.5, 0.25, 0.125), (0.05, 0.025, 0.0125), glossiness=18))  # The peak is 10 times as high.
+        self.assertEqual(gold, pt.Material((0.5, 0.25, 0.125), (0.05, 0.025, 0.0125), glossiness=18))
         self.assertEqual(mirror, pt.Material((0, 0.5, 1), 0.75, glossiness=1e6))
         self.assertEqual(parsed(("Metal", "Plastic")).scene.materials[0].specular, (0.05, 0.05, 0.05))
 
@@ -219,8 +219,8 @@ class Lamps(unittest.TestCase):
     def test_they_touch_nothing(self):
         light = _lights.Light("", (1, 1, 1), (3, 4, 0))
         self.assertAlmostEqual(self.only_lamp(light, [(3, 4, 2, 1.9)]).radius, 0.05, 12)
-        self.assertAlmostEqual(self.only_lamp(light, [(3, 4, 2, 2.125)]).radius, 0.0625, 12)  # inside the capsule
-        along = self.around([(0, 0, 0, 0.5)], way=(4, 4, 0))  # the capsule's axis
+        self.assertAlmostEqual(self.only_lamp(light, [(3, 4, 2, 2.125)]).radius, 0.0625, 12)
+        along = self.around([(0, 0, 0, 0.5)], way=(4, 4, 0))
         for point, gap in (((3, 1, 0), math.sqrt(2)), ((2, 2, 3), 3), ((-3, 0, 4), 5), ((7, 8, 0), 5), ((1, 1, 0), 0)):
             self.assertAlmostEqual(along.clearance(np.array(point)), abs(gap - 0.5), 12)
         self.assertAlmostEqual(self.around([(0, 0, 0, 0.5)], way=(9, 0, 0)).extent([]), 9.5, 12)
@@ -236,7 +236,7 @@ class Lamps(unittest.TestCase):
         self.assertEqual(self.only_lamp(_lights.Light("", (1, 1, 1), (0, 0, 0))).radius, 8 / 50)
 
     def test_the_target_is_among_what_is_seen(self):
-        planes = [pt.Plane((0, 0, 2), -8, 0), pt.Plane((0, 0, 1), 7, 0), pt.Plane((0, 1, 0), 0, 0)]  # behind, ahead, beside
+        planes = [pt.Plane((0, 0, 2), -8, 0), pt.Plane((0, 0, 1), 7, 0), pt.Plane((0, 1, 0), 0, 0)]
         for balls, some, z in (([], [], 2), ([], planes, -7), ([(0, 0, 10, 1)], planes, -7),
                                ([(0, 0, -4, 1), (0, 9, -1, 2)], planes, -2)):
             table = np.array(balls, float).reshape(-1, 4)

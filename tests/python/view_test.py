@@ -143,7 +143,7 @@ class Views(unittest.TestCase):
                      "package.json", ".", "..", "view.js/", "view.js%00", "...", "x" * 3000):
             self.assertIn(self.request(f"/{self.token}/{name}")[0], (403, 404), name)
         with Page(self.view) as page:
-            self.assertEqual(page.ask({"list": True}), {"files": []})  # nothing may be edited
+            self.assertEqual(page.ask({"list": True}), {"files": []})
             for name in (str(self.scene), "a scene.json", "../x", None, 7, ["a"]):
                 self.assertIn("refused", page.ask({"open": name}))
                 self.assertIn("refused", page.ask({"save": name, "text": "x"}))
@@ -172,7 +172,7 @@ class Views(unittest.TestCase):
             before = page.frame()
             self.assertIn("halton-cp", before["choices"]["sampler"])
             self.assertEqual(before["choices"]["estimator"][0], "best")
-            page.send({"camera": {**camera, "position": [0, 1, 0]}})  # breaks the library's rule
+            page.send({"camera": {**camera, "position": [0, 1, 0]}})
             self.assertIn("position", page.frame(lambda state: state["faults"])["faults"][0]["text"])
             page.send({"camera": before["first_camera"]})
             page.frame(lambda state: not state["faults"] and state["samples"])
@@ -265,7 +265,7 @@ class Views(unittest.TestCase):
             self.assertEqual(page.ask({"pixel": [5, 7]})["pixel"]["shown"], expected[7, 5].tolist())
             other.frame(lambda state: state["samples"] == 64)
             np.testing.assert_array_equal(other.pixels, automatic)
-            self.assertFalse(np.array_equal(page.pixels, automatic))  # negative control
+            self.assertFalse(np.array_equal(page.pixels, automatic))
             for spoilt in ({"exposure": 65, "tonemap": "none", "gamma": None}, {"exposure": 0, "tonemap": "x", "gamma": None},
                            {"exposure": 0, "tonemap": "none", "gamma": 11}, {"exposure": "bright", "tonemap": "none", "gamma": 1},
                            {"exposure": 0}, 7):
@@ -307,7 +307,7 @@ class Views(unittest.TestCase):
                     self.assertEqual(other.frame(lambda state: state["samples"])["size"], [24, 16])
             while renderer._is_watched:
                 pass
-            renderer._thread.join(0.3)  # work still running
+            renderer._thread.join(0.3)
             count = renderer._count
             renderer._thread.join(0.3)
             self.assertEqual(renderer._count, count)

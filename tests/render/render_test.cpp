@@ -24,7 +24,7 @@ struct Case {
     bool diffuse;
     uint32_t max_path_length;
     double reference_rmse;
-    uint32_t sampler; // as in the reference
+    uint32_t sampler;
 };
 
 using Image = std::vector<float>;

@@ -127,7 +127,7 @@ TEST_F(StatedError, OfLampsBelowAPixelIsThatByManySamples) {
     constexpr uint32_t height = 32;
     const pt_material lamp[] = {{{}, {}, {2000.0F, 2000.0F, 2000.0F}, 0.0F, 0}};
     constexpr double fov = 0.7;
-    const double pixel = 2.0 * std::tan(0.5 * fov) / height; // at distance 1
+    const double pixel = 2.0 * std::tan(0.5 * fov) / height;
     std::vector<pt_sphere> lamps;
     for (int i = 7; i < static_cast<int>(width * height); i += 20) {
         const double x = i % static_cast<int>(width) + 0.5 - 0.5 * width;

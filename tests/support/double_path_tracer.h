@@ -16,8 +16,8 @@
 class DoublePathTracer {
 public:
     struct Estimate {
-        double mean = 0.0;     // mean over the components
-        double variance = 0.0; // variance of the mean
+        double mean = 0.0;
+        double variance = 0.0;
     };
 
     DoublePathTracer(const pt_scene &scene, const pt_camera &camera, std::uint32_t seed) :

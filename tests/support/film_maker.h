@@ -17,8 +17,8 @@
 namespace film_maker {
 
 using Bytes = std::vector<std::byte>;
-using Pixel = std::pair<std::uint32_t, std::uint32_t>;    // row and column
-using Samples = std::map<Pixel, std::set<std::uint32_t>>; // indices by pixel
+using Pixel = std::pair<std::uint32_t, std::uint32_t>;
+using Samples = std::map<Pixel, std::set<std::uint32_t>>;
 
 inline pt::FilmIdentity identity(std::uint32_t width, std::uint32_t height) {
     return {{"scene", "00112233445566778899aabbccddeeff"},

@@ -27,7 +27,7 @@ inline Vector vector_of(const double (&v)[3]) {
 }
 
 struct Ray {
-    Vector direction; // unit vector
+    Vector direction;
     Real time;
     Vector start;
     Vector origin{0.0L}; // relative to the camera
@@ -36,10 +36,10 @@ struct Ray {
 
 struct Meeting {
     Real distance = nowhere;
-    Real tolerance = 0.0L;        // tolerance of the distance
-    bool is_uncertain = false;    // almost touching, so undecided
-    Vector normal{0.0L};          // faces the camera
-    Real normal_tolerance = 0.0L; // tolerance of each component
+    Real tolerance = 0.0L;
+    bool is_uncertain = false; // almost touching, so undecided
+    Vector normal{0.0L};       // faces the camera
+    Real normal_tolerance = 0.0L;
     std::uint32_t object = PT_NO_OBJECT;
 };
 

@@ -37,7 +37,7 @@ inline double chi_square_deviate(std::span<const double> observed, std::span<con
 
 struct Moments {
     double mean;
-    double variance; // unbiased
+    double variance;
 };
 
 inline Moments moments(std::span<const double> values) {

@@ -23,7 +23,7 @@ using Image = std::vector<float>;
 struct Progress {
     std::atomic<bool> stop{false};
     std::atomic<int> calls{0};
-    int *unguarded = nullptr; // counts without synchronisation
+    int *unguarded = nullptr;
 
     static int32_t report(void *user, double /*fraction*/) {
         auto *progress = static_cast<Progress *>(user);

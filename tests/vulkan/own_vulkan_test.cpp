@@ -247,7 +247,7 @@ TEST_F(OwnVulkanTest, ExcludesWhatIsTheLibrarysOwn) {
                              "vulkan, whose instance has its "
                              "own layers\n"
                              "create.device = \"all\": must be NULL with vulkan, which has one");
-    info.struct_size = offsetof(pt_create_info, vulkan); // excludes the field
+    info.struct_size = offsetof(pt_create_info, vulkan);
     info.flags = 0;
     info.device = std::getenv("PT_TEST_DEVICE");
     pt_context *created = nullptr;

@@ -47,7 +47,7 @@ TEST_F(VulkanTest, ADeviceThatDoesNotEndASubmissionIsLostForGood) {
                                   .invocations = 0,
                                   .queue_depth = 1});
     const Gate gate(device.handle());
-    Recurrence recurrence(device, 256); // The work fits into one submission.
+    Recurrence recurrence(device, 256);
     const pt::Error loss = error_of([&] { device.submit([&](const auto &commands) { gate.record(commands); }); });
     EXPECT_EQ(loss.code(), PT_ERROR_DEVICE_LOST);
     EXPECT_TRUE(device.lost());
