@@ -1,4 +1,3 @@
-// Evaluates shader functions over structs of 16-byte vectors (tests/kernel/probe/items.glsl).
 #pragma once
 
 #include "tests/kernel/probe.h"

@@ -1,4 +1,3 @@
-// Random and extreme inputs from fixed seeds.
 #pragma once
 
 #include "tests/accuracy/comparison.h"

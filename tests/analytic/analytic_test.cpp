@@ -51,7 +51,6 @@ bool resolves(const Measurement &measured, const Exact &exact) {
 
 class PixelFixture : public AnalyticFixture {
 protected:
-    // The rows must have the same bits as in the whole image.
     Batches render(const cli::SceneFile &scene, const Crop &crop, std::uint32_t samples, std::uint32_t first_row = 0,
                    std::uint32_t row_count = 0) {
         set_up(scene.scene(), cropped(scene.camera, scene.render.height, crop.height));

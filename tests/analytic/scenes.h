@@ -16,7 +16,6 @@ struct Pixel {
     Exact exact;
 };
 
-// The rows of expected.csv for one scene.
 struct Expectation {
     std::string scene;
     std::vector<Pixel> pixels;

@@ -36,7 +36,6 @@ TEST_F(LogTest, NamesTheDeviceAndTheKernelsBuilt) {
     const pt_accumulate_info one = samples(1);
     ASSERT_EQ(pt_accumulate(logged.get(), &one), PT_OK);
     ASSERT_EQ(lines.size(), 1U);
-    // std::regex has warnings under sanitizers with GCC 12.
     const std::string &built = lines[0];
     EXPECT_TRUE(built.starts_with("3 built a kernel for this scene alone in ") ||
                 built.starts_with("3 built a kernel for all scenes of this kind in "))

@@ -1,4 +1,4 @@
-"""Scenes whose errors are hard to estimate, such as lamps below a pixel, caustics and mostly black pictures."""
+"""Scenes whose errors are hard to estimate."""
 
 import math
 import random

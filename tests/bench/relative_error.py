@@ -2,6 +2,5 @@ import numpy
 
 
 def relative_square(image, truth):
-    """The mean over pixels and channels of (x - t)^2 / (t^2 + 0.01)."""
     image, truth = (numpy.asarray(values, numpy.float64) for values in (image, truth))
     return float(numpy.mean((image - truth) ** 2 / (truth * truth + 0.01)))

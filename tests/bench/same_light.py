@@ -39,7 +39,7 @@ KINDS = {"alike": {}, "light": {"estimator": pt.Estimator.LIGHT}, "bsdf": {"esti
 RATES = (0.1, 0.01, 1e-3, 1e-6)
 CHANGES = (0.005, 0.01, 0.03)
 LARGE, MANY = (96, 48), 256
-# Faults of kernels: a file, a text in it, and the text that replaces it.
+# File, text, and its replacement.
 FAULTS = {"density of lamps by 3%": ("lights.glsl", "surface_of_lamp(choice.lamp)), density)",
                                      "surface_of_lamp(choice.lamp)), 1.03 * density)"),
           "density of directions by 3%": ("phong.glsl", "0.5 / PI : density)", "0.5 / PI : 1.03 * density)"),

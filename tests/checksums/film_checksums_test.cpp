@@ -38,7 +38,6 @@ std::string checksum_of(const std::vector<Number> &numbers) {
     return hexadecimal(pt::checksum(std::as_bytes(std::span(numbers))));
 }
 
-// The identity names the kernels. It is left out, as is the film's own checksum.
 std::string checksum_of_sums(const std::vector<char> &film) {
     const std::size_t first = std::string_view(film.data(), film.size()).find("\ntile ");
     return hexadecimal(pt::checksum(std::as_bytes(std::span(film).first(film.size() - 8).subspan(first))));

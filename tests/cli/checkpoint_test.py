@@ -105,7 +105,6 @@ class KilledRender(KeptRender):
 
 
 class Surroundings(KeptRender):
-    """Errors may cost the checkpoint, but not the picture."""
     made = []
 
     def setUp(self):

@@ -15,7 +15,6 @@ def fails(name, result):
     return {"FAKE_PT_FAIL": f"{name}:{RESULT[result]}", "FAKE_PT_MESSAGE": "the reason"}
 
 
-# Each row has the exit code, command line, environment, start of the message, and written files.
 CASES = [
     *((code, RENDER, fails(function, result), "pt: the reason", []) for function, result, code in (
         ("create", "UNSUPPORTED", 4), ("create", "INVALID_ARGUMENT", 2), ("create", "OUT_OF_HOST_MEMORY", 1),

@@ -82,7 +82,6 @@ void raise_wanted_signal() {
         std::raise(std::stoi(wanted));
 }
 
-// The error of a few samples is unknown.
 double fake_error(std::uint32_t sample_count) {
     return sample_count < 16 ? std::numeric_limits<double>::infinity() : 1.0 / sample_count;
 }

@@ -52,8 +52,6 @@ class StandardStreams(CommandLineTest):
 
 
 class SameFiles(CommandLineTest):
-    """The program must refuse these files before it creates a device, which would fail."""
-
     def refuse(self, error, *arguments, command="render"):
         before = {name: self.contents(name) for name in self.files()}
         self.expect(2, command, *arguments, FAKE_PT_FAIL=f"create:{RESULT['NO_DEVICE']}")

@@ -139,7 +139,6 @@ class RealDeviceLayers(LayersTest):
         self.assertEqual({pixel["sample_count"] for pixel in pixels}, {2.0})
         self.assertTrue({pixel["id"] for pixel in pixels} <= set(range(8)))
         self.assertGreater(len({pixel["id"] for pixel in pixels}), 5)
-        # The camera at (0, 0, 1) looks at the wall z = -18.5.
         for pixel in pixels:
             self.assertLessEqual(pixel["Z"], 19.5 + 1e-5)
             if pixel["id"] == 5:

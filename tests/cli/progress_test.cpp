@@ -40,7 +40,7 @@ TEST(Progress, JsonLines) {
     EXPECT_EQ(last.at("samples_per_pixel"), 100);
     EXPECT_EQ(last.at("samples_per_pixel_total"), 100);
     EXPECT_EQ(last.at("eta_seconds"), 0.0);
-    EXPECT_NEAR(last.at("samples_per_second").get<double>(), 50e6, 1.0); // 1e8 samples in 2 s
+    EXPECT_NEAR(last.at("samples_per_second").get<double>(), 50e6, 1.0);
 }
 
 TEST(Progress, TerminalLine) {
@@ -139,7 +139,6 @@ TEST(Progress, TheErrorIsShownOnceItIsKnown) {
               " 50.0 %  ETA 0:00:01  50/100 spp  50.0 Msamples/s");
 }
 
-// Two fifths were done before, so one second brought one fifth.
 TEST(Progress, SamplesOfAnotherRunTookNoTime) {
     EXPECT_EQ(line_after(milliseconds(1000), 60.0, [](Progress &progress) { progress.begin_at(40); }),
               " 60.0 %  ETA 0:00:02  60/100 spp  20.0 Msamples/s");

@@ -107,7 +107,6 @@ TEST(RenderTask, WhatTheLibraryRefusesIsNamedAsItWasGiven) {
     EXPECT_EQ(explained(size_only, {size, length}, full_scene),
               std::pair(ExitCode::usage, std::string("--size: width = 0: must be >= 1\n"
                                                      "s.json:3: render.max_path_length = 2000: must be <= 1024")));
-    // Both numbers are defaults.
     EXPECT_EQ(explained({}, {{"render", none, "width", none, "* rows", "512 * 1", "too many"}}, "{}"),
               std::pair(ExitCode::usage, std::string("--size: width * rows = 512 * 1: too many")));
 }

@@ -6,8 +6,6 @@ from command_line import PT, SCENES, CommandLineTest
 
 
 class Selftest(CommandLineTest):
-    """Every scene fails with the fake library's image."""
-
     def checks(self, **environment):
         self.assertEqual(self.run_pt("selftest", "--json", "s.json", **environment), 1, self.errors)
         self.assertEqual(self.errors, "")

@@ -41,7 +41,6 @@ protected:
 
     SourceWatch watch() const { return {folder.file("scene"), folder.file("shaders")}; }
 
-    // Only a later call reports a change.
     static void expect_change(SourceWatch &watch, const std::vector<std::string> &names) {
         const auto end = std::chrono::steady_clock::now() + long_enough;
         while (!watch.changed(long_enough))

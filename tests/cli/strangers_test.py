@@ -14,7 +14,6 @@ SMALL = ("-o", "a.png", "--size", "2x2", "--spp", "1")
 
 
 def sparse(path, start, size):
-    """Writes a file that takes too long to read."""
     with open(path, "wb") as file:
         file.write(start)
         file.truncate(size)

@@ -32,7 +32,6 @@ class RealDeviceWidth(CommandLineTest):
             self.skipTest("there is no llvmpipe")
 
     def render(self, name, **environment):
-        """Returns the device's name, which states llvmpipe's vector width."""
         self.expect(0, "render", COURSEWORK, "-o", name, "--size", "64x32", "--spp", "4", "--max-path-length", "6",
                     "--device", self.device, XDG_CACHE_HOME=self.path("cache"), **environment)
         return read_exr_attributes(self.path(name))["pt.device"][1].decode()

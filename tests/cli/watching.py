@@ -19,7 +19,6 @@ class Watching:
         self.seen = []
 
     def line_with(self, text):
-        """Returns the next line with the text."""
         for line in self.process.stdout:
             self.seen.append(line)
             if text in line:

@@ -210,7 +210,6 @@ TEST(Denoise, KeepsMarksThatHalvesHaveByChance) {
             }
         Denoising denoising(halves[0], halves[1]);
         ASSERT_EQ(denoising.run(), PT_OK);
-        // Denoised over raw error, both with the weights of the squares.
         const auto ratio = [&](const auto &weight) {
             const auto square = [&](const auto &value) {
                 return denoising.mean([&](std::size_t i) {
@@ -442,7 +441,6 @@ TEST(Denoise, RunsOnTheCpuUnlessTold) {
     EXPECT_EQ(denoising.run("gpu"), PT_OK);
 }
 
-// The system's search finds the library, for example by LD_LIBRARY_PATH.
 TEST(Denoise, RunsTheLibraryItself) {
     Denoising denoising(0, much_noise);
     denoising.info.library = nullptr;

@@ -22,7 +22,7 @@ except ImportError:
 from pt import farm
 from pt.farm import _command
 
-if __name__ == "__main__":  # Worker processes import this file too.
+if __name__ == "__main__":
     os.environ["PT_PROGRAM"] = os.path.abspath(sys.argv.pop(1))
 PT = os.environ["PT_PROGRAM"]
 SCENE = {"camera": {"position": [0, 1, 5], "look_at": [0, 0.8, 0]}, "film": {"width": 96, "height": 60},

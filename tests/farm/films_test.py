@@ -53,8 +53,6 @@ def waiting(path):
 
 
 class Unreadable:
-    """An object that fails to unpickle."""
-
     def __reduce__(self):
         return int, ("no number",)
 

@@ -270,7 +270,7 @@ void Life::map_image(const std::string &step) {
 }
 
 void Life::read_of_scene(const std::string &step, uint32_t quantity) {
-    constexpr uint32_t unwritten = PT_NO_OBJECT - 1; // NaN as a float
+    constexpr uint32_t unwritten = PT_NO_OBJECT - 1;
     const bool is_whole = quantity == PT_QUANTITY_OBJECT;
     std::vector<uint32_t> words(std::size_t{width} * rows_ * (is_whole ? 1 : 3), unwritten);
     pt_image target{};

@@ -21,7 +21,7 @@ namespace {
 using namespace faults;
 
 struct Way {
-    bool gpu; // whether the CPU poses as a GPU
+    bool gpu;
     uint32_t device_count;
     uint32_t submit_milliseconds;
     double target_error;

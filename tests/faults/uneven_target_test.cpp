@@ -47,7 +47,6 @@ pt_result take_to_target(pt_context *context) {
     return pt_accumulate(context, &info);
 }
 
-// Rounds repeat most places. Later rounds therefore test only every eighth place.
 std::size_t place_after(std::size_t place) {
     return place + 1 + place / 8;
 }

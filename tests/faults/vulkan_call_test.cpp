@@ -22,11 +22,11 @@ pt_result expected_result(const CallFault &fault) {
         return PT_ERROR_DEVICE_LOST;
     if (fault.function == "vkGetFenceStatus")
         return fault.result == VK_ERROR_DEVICE_LOST ? PT_ERROR_DEVICE_LOST : PT_OK;
-    if (fault.function == "vkGetPipelineCacheData") // The library can do without the cache.
+    if (fault.function == "vkGetPipelineCacheData")
         return PT_OK;
     switch (fault.result) {
     case VK_ERROR_OUT_OF_HOST_MEMORY:
-    case VK_ERROR_MEMORY_MAP_FAILED: // no address space
+    case VK_ERROR_MEMORY_MAP_FAILED:
         return PT_ERROR_OUT_OF_HOST_MEMORY;
     case VK_ERROR_OUT_OF_DEVICE_MEMORY:
     case VK_ERROR_TOO_MANY_OBJECTS:

@@ -190,7 +190,7 @@ class Looks(unittest.TestCase):
     def test_halves_meet_in_the_middle_of_what_is_seen(self):
         radii = np.array([0.5, 0.1])
         drawn = prepare(PAIR, Options(bonds=2.5, radius=radii))
-        np.testing.assert_allclose(drawn.ends(drawn.rods[0])[:, 0], (0.2, 0.2))  # middle of the range
+        np.testing.assert_allclose(drawn.ends(drawn.rods[0])[:, 0], (0.2, 0.2))
         walled = Particles(np.array([[0.5, 0, 0], [9.5, 0, 0]]), cell=Cell.of([10, 10, 10]))
         np.testing.assert_allclose(prepare(walled, Options(bonds=2.5, radius=0.5 * radii)).rods[0].ways[:, 0], (-0.6, 0.4))
         within = prepare(PAIR, Options(bonds=2.5, radius=np.array([4.0, 0.1])))

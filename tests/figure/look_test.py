@@ -71,7 +71,7 @@ class Numbers(unittest.TestCase):
         self.assertEqual(colored("v")[1].high, VALUES.max())
         rgb, legend, _ = colored(np.full(COUNT, 3.0))
         self.assertEqual((legend.low, legend.high), (3.0, 3.0))
-        np.testing.assert_array_equal(rgb[0], legend.colormap(128, bytes=True)[:3])  # color of the middle
+        np.testing.assert_array_equal(rgb[0], legend.colormap(128, bytes=True)[:3])
         self.assertLess(colored(skewed, scale="symmetric")[1].high, 6)
 
     def test_magnitudes(self):

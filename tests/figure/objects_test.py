@@ -41,8 +41,6 @@ def ase_atoms(places):
 
 
 class Steps(list):
-    """A trajectory that moves the atoms when a frame is read."""
-
     frame = 0
 
     def __getitem__(self, index):
@@ -71,7 +69,6 @@ class Property(np.ndarray):
 
 
 def ovito_data(name):
-    """Type 1 has the given name. Type 2 has no name."""
     cell = np.column_stack([EDGES.T, (1, 2, 3)])
     if installed("ovito"):
         from ovito.data import DataCollection
@@ -108,7 +105,7 @@ class Objects(unittest.TestCase):
         for data in universe(), universe().atoms:
             if not hasattr(data, "universe"):
                 continue
-            found = self.check(load(data))  # takes the current frame
+            found = self.check(load(data))
             self.assertEqual(found.columns["name"].tolist(), ["OW", "HW1", "HW2"])
             self.check(load(data, frame=1), PLACES + 1)
             np.testing.assert_allclose(found.positions, PLACES)
@@ -139,7 +136,6 @@ class Objects(unittest.TestCase):
             self.assertEqual("from 0 to 255: the largest is 255" in " ".join(found.notes), bool(more))
 
     def test_columns_of_one_array_are_read_in_place(self):
-        """Columns in another order are copied."""
         array = np.repeat(PLACES, 2, axis=0)
         self.assertTrue(np.shares_memory(load(dict(zip("xyz", array.T))).positions, array))
         np.testing.assert_array_equal(load(dict(zip("zyx", array.T))).positions, array[:, ::-1])
@@ -163,7 +159,7 @@ class Files(unittest.TestCase):
         for key, values in zip(records.dtype.names, [*PLACES.T, packed]):
             records[key] = values
         text = "".join(f"{x} {y} {z} {color} 0 0 0\n" for (x, y, z), color in zip(PLACES, packed))
-        for kind in "FU":  # colors are floats or integers
+        for kind in "FU":
             found = self.read("a.pcd", head.format(kind, 3, "binary").encode() + records.tobytes())
             np.testing.assert_array_equal(found.positions, PLACES)
             np.testing.assert_array_equal(found.colors[1], (0x40, 0x50, 0x60))

@@ -25,7 +25,7 @@ PLY = "ply\nformat {}\nelement vertex 2\nproperty float x\nproperty float y\npro
 HEAD = "ITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS "
 ATOMS = "ITEM: ATOMS id xs ys zs\n1 0.5 0.25 0.125\n"
 
-DAMAGES = 60  # damages per file
+DAMAGES = 60
 DAMAGED = {  # whether a cut row is noticed
     "cloud.csv": False, "cloud.csv.gz": True, "cloud.tsv": False, "cloud.xyz": True, "cloud.extxyz": True, "rows.npy": True,
     "records.npy": True, "stored.npz": True, "deflated.npz": True, "little.ply": True, "lists.ply": True,
@@ -115,7 +115,7 @@ class Cells(InAFolder):
         np.testing.assert_allclose(wrapped.positions, inside[1::2], 0, 30 * 2**-50)
         np.testing.assert_array_equal(wrapped.column("y"), wrapped.positions[:, 1])
         np.testing.assert_array_equal(wrapped.column("v"), np.arange(1, 50, 2))
-        np.testing.assert_array_equal(outside, data["positions"])  # The user's array must stay unchanged.
+        np.testing.assert_array_equal(outside, data["positions"])
 
 
 def many_frames(count):
@@ -176,7 +176,7 @@ class Rows(InAFolder):
         _rows.FEW_BYTES = 1 << 16
 
     def test_blocks_begin_and_end_anywhere(self):
-        rows = [(i, -0.5, i % 1000 + 0.25, i if i < 58000 else i + 0.5) for i in range(60000)]  # whole numbers come first
+        rows = [(i, -0.5, i % 1000 + 0.25, i if i < 58000 else i + 0.5) for i in range(60000)]
         for name, head, separator in (("a.csv", "x,y,z,v\n", ","), ("a.xyz", "60000\nProperties=pos:R:3:v:R:1\n", " "),
                                       ("a.dump", "ITEM: NUMBER OF ATOMS\n60000\nITEM: ATOMS x y z v\n", " ")):
             text = (head + "".join(f"{i}{separator}{' ' * (i % 67)}{y}{separator}{z}{separator}{v}\n" for i, y, z, v in rows)).encode()

@@ -166,7 +166,7 @@ class Series(unittest.TestCase):
                             np.subtract(staged[20].layout.camera.position, staged[0].layout.camera.position))
             self.assertAlmostEqual(abs(axis @ staged[0].layout.stage.lamps[0].center - axis @ np.array(
                 staged[7].layout.stage.lamps[0].center)), 0.0)
-            self.assertGreater(axis @ up_vector(up), 0)  # seen from above
+            self.assertGreater(axis @ up_vector(up), 0)
             distances = [np.linalg.norm(np.subtract(each.layout.camera.position, each.layout.stage.lamps[0].center))
                          for each in staged]
             np.testing.assert_allclose(distances, distances[0])
@@ -186,7 +186,7 @@ class TypicalRadius(unittest.TestCase):
                 apart[apart == 0] = np.inf
                 nearest = np.sort(apart, axis=1)[:, :4]
                 expected = np.median(nearest[:, 0])
-                if np.quantile(nearest[:, 0], 0.05) < 0.5 * expected:  # random positions
+                if np.quantile(nearest[:, 0], 0.05) < 0.5 * expected:
                     expected = np.median(nearest[:, 3])
                 np.testing.assert_allclose(typical_radius(points.astype(np.float32)), 0.5 * expected, rtol=0.1)
         self.assertEqual(typical_radius(np.ones((5, 3))), 1.0)

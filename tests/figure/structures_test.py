@@ -15,7 +15,7 @@ from pt.figures._elements import SYMBOLS
 from pt.figures._errors import DataError
 from structures_cases import CASES, MMCIF, REFUSED, gro, lammps
 
-DAMAGES = 6  # damages per file
+DAMAGES = 6
 LETTERS = b" \n0123456789.-+eEdX\"'\t\xff\0"
 
 DATA = pathlib.Path(__file__).resolve().parents[2] / "tests/data/structures"
@@ -109,7 +109,6 @@ class Small(InAFolder):
 
 class Large(InAFolder):
     def test_sections_with_comments_blank_lines_and_labels(self):
-        """The sections have several blocks, so that pandas reads them."""
         count = 40_000
         generator = np.random.default_rng(1)
         numbers, places = generator.permutation(count) + 1, generator.integers(-9999, 9999, (count, 3)) / 1000
@@ -199,7 +198,6 @@ class Binary(InAFolder):
 
 
     def test_dcd_without_a_cell(self):
-        """A hand-written file, with a cell like MDAnalysis's."""
         def record(data):
             return struct.pack("<i", len(data)) + data + struct.pack("<i", len(data))
         path, topology = self.folder / "a.dcd", self.folder / "a.gro"

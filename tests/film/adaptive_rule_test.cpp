@@ -258,7 +258,6 @@ private:
     std::vector<double> variances_;
 };
 
-// Stops after `stop_after` tiles. The last of these gets at most half of its samples.
 void sample_plan(ModelFilm &film, const ModelErrors &errors, const pt::MostSamples &counts, std::uint64_t stop_after) {
     const AdaptivePlan plan(goal_error, counts,
                             {[&] { return errors.error_of(film); }, [&] { return errors.squares_of(film); },

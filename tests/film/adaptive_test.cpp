@@ -82,7 +82,7 @@ TEST_F(AdaptiveTest, EachTileHasTheBitsOfAnEvenFilm) {
         const Values counts = values(uneven.get(), PT_QUANTITY_SAMPLE_COUNT);
         const Values radiance = values(uneven.get());
         const Values error = values(uneven.get(), PT_QUANTITY_STANDARD_ERROR);
-        for (uint32_t y = 0; y < uneven_height; ++y) // All pixels of a tile have one count.
+        for (uint32_t y = 0; y < uneven_height; ++y)
             for (uint32_t x = 0; x < uneven_width; ++x)
                 EXPECT_EQ(counts[3 * (y * uneven_width + x)], counts[3 * (y / 8 * 8 * uneven_width + x / 8 * 8)]);
         std::map<uint32_t, std::size_t> pixels;

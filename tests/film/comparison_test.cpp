@@ -111,7 +111,7 @@ TEST(Comparison, TheProbabilityIsThatOfSigns) {
     const double up = static_cast<double>(1.1F) - 1.0;
     const double down = static_cast<double>(0.9F) - 1.0;
     const double deviation = std::sqrt(plus * up * up + minus * down * down);
-    const double event = std::max(up / 1.0, -down / (1.0 + down)); // relative to the light, which is 1
+    const double event = std::max(up / 1.0, -down / (1.0 + down));
     const double excess = plus * up + minus * down - 1e-4 * pixel_count;
     const double by_noise = std::min(excess, deviation * deviation / event) / deviation;
     const double by_events = excess / event - by_noise * deviation / event;
@@ -126,7 +126,7 @@ TEST(Comparison, TheProbabilityIsThatOfSigns) {
 // Compares Bentkus and Dzindzalieta's constant with exact tails of sums of n signs.
 TEST(Comparison, TheConstantOfSignsHolds) {
     for (const int n : {2, 3, 10, 31}) {
-        double term = std::pow(0.5, n); // probability that all n signs are +
+        double term = std::pow(0.5, n);
         double tail = 0.0;
         for (int minus = 0; 2 * minus <= n; ++minus) {
             tail += term;
@@ -266,7 +266,7 @@ TEST(Comparison, RegionsAreCounted) {
     const pt_compare_info info = info_of(ones, ones);
     std::uint32_t counted = 0;
     ASSERT_EQ(pt_compare(&info, nullptr, nullptr, &counted), PT_OK);
-    EXPECT_EQ(counted, 6U + 2U + 1U); // regions of 16, 32 and 64 pixels
+    EXPECT_EQ(counted, 6U + 2U + 1U);
     std::uint32_t compared_count = 0;
     pt_comparison comparison{};
     comparison.struct_size = sizeof comparison;

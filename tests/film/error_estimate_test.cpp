@@ -12,7 +12,6 @@
 
 namespace {
 
-// With this count, unseen light is negligible.
 constexpr std::uint64_t sample_count = std::uint64_t{1} << 40;
 
 pt::ImageValues pixels_of(const std::vector<float> &radiance, const std::vector<float> &standard_error) {

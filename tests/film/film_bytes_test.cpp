@@ -87,7 +87,6 @@ TEST(FilmBytes, Version1StaysReadable) {
     }
 }
 
-// Pieces may begin at any byte.
 TEST(FilmBytes, AreWrittenAsTheyWereRead) {
     const Bytes golden = golden_film();
     const pt::FilmReader film(golden);

@@ -196,7 +196,6 @@ TEST(Film, LostSamplesAreAnError) {
     });
     EXPECT_EQ(error.code(), PT_ERROR_INTERNAL);
     EXPECT_STREQ(error.what(), "the driver did 3 of 4 samples of a pixel in one part of the film");
-    // A surplus in the other part does not compensate for a loss.
     EXPECT_EQ(error_of([] {
                   pt::require_samples(one_pixel({9, 5, 0}, {9, 3, 0}).samples_of(0), {4, 4});
               }).code(),

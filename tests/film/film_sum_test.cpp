@@ -12,7 +12,6 @@
 
 namespace {
 
-// gives several pieces
 constexpr std::uint32_t sum_width = 307;
 constexpr std::uint32_t sum_height = 331;
 

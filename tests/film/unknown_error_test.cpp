@@ -98,7 +98,6 @@ TEST_F(UncertainTest, NothingIsKnownOfAPictureThatIsBlackByChance) {
     EXPECT_TRUE(std::isfinite(error().relative_rmse_high));
 }
 
-// Everything else is black, so the target would seem to be reached at once.
 TEST_F(UncertainTest, NoTargetIsReachedBeforeALampInViewIsMet) {
     for (const auto &[sampling, needed] : {std::pair{PT_SAMPLING_UNIFORM, 60U},
                                            {PT_SAMPLING_UNIFORM, 120U},

@@ -11,7 +11,7 @@ namespace fuzz {
 namespace {
 
 constexpr std::uint32_t most_surfaces_read = 12;
-constexpr std::uint32_t most_copies = 128; // enough to exceed a uniform buffer
+constexpr std::uint32_t most_copies = 128;
 
 template <std::size_t Count>
 void read_lengths(Numbers &numbers, double (&lengths)[Count]) {
@@ -19,7 +19,6 @@ void read_lengths(Numbers &numbers, double (&lengths)[Count]) {
         length = numbers.length();
 }
 
-// Most materials conserve energy.
 pt_material material(Numbers &numbers, ByteReader &bytes) {
     pt_material material{};
     const bool emits = bytes.one_in(4);

@@ -48,7 +48,6 @@ struct Input {
     pt_scene scene() const;
 };
 
-// All bytes are valid.
 Input decoded_input(ByteReader bytes);
 
 // Keeps to the rules of pt.h. The kernel's features usually stay the same.

@@ -75,7 +75,6 @@ std::size_t exchange_number(std::span<std::uint8_t> room, std::size_t size, std:
 
 } // namespace
 
-// Half of the changes replace a number, because most changes of a single character are syntax errors.
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t *data, std::size_t size, std::size_t max_size,
                                                unsigned int seed) {
     std::mt19937 random(seed);

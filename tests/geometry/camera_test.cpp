@@ -178,7 +178,6 @@ TEST(Camera, AxesAreOrthonormalToFloatPrecision) {
             EXPECT_NEAR(glm::dot(camera.right, camera.up), 0.0, 0x1p-24);
             EXPECT_NEAR(glm::dot(camera.right, camera.forward), 0.0, 0x1p-24);
             EXPECT_NEAR(glm::dot(camera.up, camera.forward), 0.0, 0x1p-24);
-            // rounding turns the test's own `up` by 2^-53 / tilt
             EXPECT_NEAR(glm::dot(camera.up, aside), 1.0, 0x1p-24);
             EXPECT_NEAR(glm::dot(glm::cross(camera.right, camera.up), camera.forward), -1.0, 0x1p-24);
         }

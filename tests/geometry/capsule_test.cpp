@@ -35,7 +35,6 @@ struct Nearest {
     std::size_t index = 0;
 };
 
-// The point must be outside all capsules.
 Nearest nearest_of(const std::vector<Given::Capsule> &capsules, const glm::dvec3 &point) {
     Nearest nearest;
     for (std::size_t i = 0; i < capsules.size(); ++i) {

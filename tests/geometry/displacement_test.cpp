@@ -86,7 +86,6 @@ TEST(Displacement, OfSpheresThatShareAGridWithADistantOne) {
     EXPECT_FALSE(displaced({{{0, 0, 5}, 1, half}, {{0, 0, 1e9}, 1, half}})) << "behind the camera";
 }
 
-// An opacity of 1 - 1/1000 is rounded to 1.
 TEST(Displacement, OpaqueSpheresAreNotInTheTree) {
     EXPECT_FALSE(displaced({{{0, 0, -5}, 1, 0.999F}, {{0, 0, -1e9}, 1, 0.999F}}));
     EXPECT_TRUE(displaced({{{0, 0, -5}, 1, 0.99F}, {{0, 0, -1e9}, 1, 0.99F}}));
@@ -105,7 +104,6 @@ TEST(Displacement, OfTranslucentRadii) {
         << rule->rule;
 }
 
-// The ground is out of view, but makes the grid coarse.
 TEST(Displacement, OfSpheresThatShareAGridWithAGround) {
     const auto rule = displaced({{{0, 0, -5}, 1, half}, {{0, -1e8 - 2, 0}, 1e8, half}});
     ASSERT_TRUE(rule);

@@ -112,7 +112,6 @@ protected:
         return pixels;
     }
 
-    // Returns false if undecided.
     static bool judge_means(const Pixels &pixels, std::uint32_t pixel, const Shot &given, const pt_scene &scene,
                             const View &view) {
         const std::optional<Means> means = means_of(given, scene, view, given.first_column + pixel % columns,

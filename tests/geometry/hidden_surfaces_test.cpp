@@ -27,7 +27,7 @@ TEST(LiesApart, OfBallsIsBesideOrWithin) {
     EXPECT_FALSE(lies_apart(ball(0, 1), ball(1.5, 2)));
     EXPECT_FALSE(lies_apart(ball(0, 1), ball(2, 1)));
     EXPECT_TRUE(lies_apart(ball(0, 1), ball(2.001, 1)));
-    EXPECT_FALSE(lies_apart(ball(0, 1), ball(2.00001, 1))); // float32 cannot separate the surfaces.
+    EXPECT_FALSE(lies_apart(ball(0, 1), ball(2.00001, 1)));
 }
 
 TEST(LiesApart, OfBallsThatMoveIsSoAllTheTime) {

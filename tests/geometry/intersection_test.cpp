@@ -32,7 +32,6 @@ struct Met {
     std::uint32_t surface, blocked, inside, unused_too;
 };
 
-// Positions are relative to the camera.
 struct Ball {
     glm::dvec3 center;
     double radius;
@@ -75,7 +74,6 @@ struct Reference {
         half_chord = std::sqrt(std::max(0.0L, radius * radius - glm::dot(across, across)));
         height = (glm::length(from_center) - radius) * (glm::length(from_center) + radius) / (2.0L * radius);
     }
-    // A quotient of products, because the difference of middle and half_chord would cancel.
     long double near_root(long double radius) const {
         return to_middle > 0 ? 2 * radius * height / (to_middle + half_chord) : to_middle - half_chord;
     }

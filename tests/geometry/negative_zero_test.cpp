@@ -47,7 +47,6 @@ TEST_F(NegativeZero, OfMaterialsIsZero) {
             << "vertices: " << max_path_length;
 }
 
-// Negative control: the kernel takes -0 as a negative number.
 TEST(NegativeZeroInTheSceneBuffer, IsRejected) {
     const KernelRender render = render_of_scene(scene_with_zeros(0.0F), 1);
     std::vector<glm::vec4> words = render.words();

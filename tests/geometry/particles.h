@@ -19,7 +19,6 @@ inline const std::vector<pt_material> three_materials = {{{0.5F, 0.25F, 1.0F}, {
                                                          {{1, 1, 1}, {0, 0, 0}, {0, 0, 0}, 0, 0},
                                                          {{0, 0, 0}, {0, 0, 0}, {2, 3, 4}, 0, 0}};
 
-// Valid columns that tests change.
 struct Particles {
     std::vector<float> center = {1, 2, 3, 4, 5, 6, -7, 8, 9, 10, 11, -0.0F};
     std::vector<float> radius = {1, 2, 0.1F, 4};

@@ -136,7 +136,6 @@ TEST(RayStart, OfParallelRaysIsAtThePositionWhereNothingIsInView) {
     EXPECT_EQ(start_of({}, {{{0, 1, 0}, -1.5, 0}}, camera), 0.0) << "a plane divides the view";
 }
 
-// Textbook formulas find the hits.
 TEST(RayStart, NothingInViewIsBeforeIt) {
     std::mt19937 engine(5);
     const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(engine); };

@@ -230,7 +230,6 @@ TEST(SphereArrays, EqualColorsShareAMaterial) {
         array.color = {bytes.data(), 3, PT_TYPE_SRGB8};
     };
     const pt::Scene scene = particles.validated();
-    // Two materials have 12^3 colors each. White is already among them.
     EXPECT_EQ(scene.materials.size(), 2 * 12 * 12 * 12U);
     for (std::uint32_t i = 0; i < count; ++i) {
         const pt::Material &material = scene.materials[scene.spheres[i].material];

@@ -28,7 +28,6 @@ std::vector<pt::TreeItem> items_of(std::uint32_t count, const std::function<Ball
     return items;
 }
 
-// All bits differ, so there are no twins.
 const pt::BitsOfSphere own_number = [](std::uint32_t sphere) { return pt::SphereBits{sphere}; };
 
 pt::TreeShape shape_of(std::vector<pt::TreeItem> items, const pt::BitsOfSphere &bits_of) {

@@ -75,7 +75,6 @@ TEST(SphereSource, ReadsInOrderAcrossArrays) {
     EXPECT_EQ(read, indices.size());
 }
 
-// Empty arrays use no material.
 TEST(SphereSource, KnowsWhichMaterialsAreUsed) {
     const std::vector<float> center(3 * 4);
     const std::vector<std::uint32_t> materials = {7, 5, 7, 5};

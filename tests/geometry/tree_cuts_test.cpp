@@ -124,7 +124,6 @@ TEST(TreeCuts, OfManySpheresAreAboutTheBest) {
         }
 }
 
-// Samples at equal steps of the index would contain only one heap.
 TEST(TreeCuts, OfSamplesHeedNoPattern) {
     const std::uint32_t count = 4 * pt::sampled_from;
     const std::uint32_t run = count / pt::sample_size;

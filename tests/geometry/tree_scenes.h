@@ -26,7 +26,6 @@ class TreeScenes {
 public:
     explicit TreeScenes(std::uint32_t seed) : engine_(seed) {}
 
-    // Kinds of scenes alternate.
     pt::Scene next(std::size_t most) {
         const auto count = static_cast<std::size_t>(std::exp(uniform(0.0, std::log(static_cast<double>(most) + 0.99))));
         kind_ = (kind_ + 1) % kind_count;

@@ -114,7 +114,6 @@ TEST(Twins, OfPlanesTheFirstStands) {
     EXPECT_EQ(distinct_planes({floor, plane({0.3, 1 + 3e-5, 0.2}, 1.5, 1)}), (Materials{0, 1}));
 }
 
-// Many spheres share one coordinate.
 TEST(Twins, AreNoneOnALattice) {
     std::vector<Sphere> lattice;
     for (int i = 0; i < 32 * 32 * 32; ++i)

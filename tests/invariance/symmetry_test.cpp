@@ -113,7 +113,6 @@ TEST_P(Symmetry, Mirror) {
         << "the scene is symmetric";
 }
 
-// Turns around an oblique axis, by the integers of a Pythagorean quadruple.
 TEST_P(Symmetry, Rotation) {
     InvarianceScene turned = scene();
     turned.turn({{2.0 / 3, -2.0 / 3, 1.0 / 3}, {1.0 / 3, 2.0 / 3, 2.0 / 3}, {-2.0 / 3, -1.0 / 3, 2.0 / 3}});

@@ -50,7 +50,6 @@ public:
     const std::vector<glm::vec4> &words() const { return scene_.words; }
     Constants constants() const { return pt::specialization_constants(scene_.features); }
 
-    // `source` is one of gpu::SCENE_IN_*.
     FilmWords film(std::uint32_t source, const std::vector<glm::vec4> &words) const {
         return film_of_kernel(constants(), source, words);
     }
@@ -68,7 +67,6 @@ public:
         return film_by(probe);
     }
 
-    // Returns a probe that can render several films.
     Probe probe_of_kernel(const Constants &constants, std::uint32_t source, const std::vector<glm::vec4> &words) const {
         const auto values = with_scene_source(constants, source, words);
         Probe probe(pt::specialised_code(pt::embedded_code().pathtrace, values), sizeof frame_, values);
@@ -99,7 +97,6 @@ public:
         return film;
     }
 
-    // Empty without a tree.
     std::vector<glm::uvec4> &tree() { return tree_; }
 
     std::vector<float> radiance(const FilmWords &film) const {

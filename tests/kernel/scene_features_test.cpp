@@ -36,7 +36,6 @@ pt::Features features_of(const std::vector<pt::Sphere> &spheres, const std::vect
         .features;
 }
 
-// The center is relative to the camera.
 pt::Sphere ball_at(const glm::dvec3 &center, double radius, const glm::dvec3 &motion = nowhere,
                    std::uint32_t material = dark) {
     return {eye + center, radius, motion, material};
@@ -114,7 +113,6 @@ TEST(FeatureInside, IsAtAnyTimeOfTheShutter) {
     EXPECT_FALSE(features_of({ball_at({-8, 0, 0}, 1, {16, 0, 0})}, {}, {0.5, 0.5})[pt::gpu::ID_MOTION]);
 }
 
-// The height is relative to the camera.
 pt::Plane floor_at(double height, bool upwards = true) {
     const double side = upwards ? 1 : -1;
     return {{0, side, 0}, -side * (eye.y + height), dark};

@@ -47,7 +47,6 @@ struct Comparison {
     }
 };
 
-// There are few surfaces, because kernels take long to build.
 InvarianceScene scene_with_lamps(int lamp_count) {
     InvarianceScene scene = InvarianceScene::coursework();
     scene.planes.resize(1);

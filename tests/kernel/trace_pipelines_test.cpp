@@ -14,7 +14,6 @@ namespace {
 
 using pt::vulkan::ComputePipeline;
 
-// Features of the smallest kernel.
 pt::Features features_of_a_sphere(std::uint32_t sampler = PT_SAMPLER_RANDOM) {
     pt::Features features{};
     features[pt::gpu::ID_SPHERE_COUNT] = 1;

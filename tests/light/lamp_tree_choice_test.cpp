@@ -14,7 +14,6 @@
 
 namespace {
 
-// Lamps with fewer than 20 expected choices are counted together.
 struct Frequencies {
     std::vector<double> observed, expected, wrong;
 };

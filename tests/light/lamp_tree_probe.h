@@ -16,7 +16,6 @@ struct TreeVertex {
     std::uint32_t surface = 0xffffffffU;
 };
 
-// Output of lamps.comp.
 struct TreeDrawn {
     glm::vec3 direction;
     float distance;

@@ -251,7 +251,6 @@ Given sticks() {
     return given;
 }
 
-// Opaque sticks that share an end are listed beside the tree of a translucent stick.
 Given opaque_sticks() {
     Given given;
     given.camera = camera_at({2, 0, 6.7}, {0, 0, 0}, 0.6);

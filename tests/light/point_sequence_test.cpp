@@ -15,7 +15,7 @@
 
 namespace {
 
-using Coordinates = std::vector<std::uint32_t>; // multiples of 2^-32
+using Coordinates = std::vector<std::uint32_t>;
 
 // Whether each interval [i, i + 1) / 2^digits holds equally many points.
 bool fills_intervals(const Coordinates &points, std::uint32_t digits) {
@@ -41,7 +41,7 @@ struct ExactInverse {
     std::uint64_t index;
     std::uint64_t base;
     double value;
-    std::uint64_t floor_of_2_to_32; // floor of 2^32 times the exact value
+    std::uint64_t floor_of_2_to_32;
 };
 
 std::vector<ExactInverse> exact_inverses() {

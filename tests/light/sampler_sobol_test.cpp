@@ -10,7 +10,6 @@ using namespace sample_numbers;
 
 namespace {
 
-// 64 points of 24 bits do not agree by chance.
 TEST(SamplerSobol, ScramblesDifferBetweenPixelsDimensionsAndSeeds) {
     Request request;
     request.pixel_count = 1024;

@@ -81,7 +81,6 @@ TEST(SmallLamps, AreSpreadOverPixels) {
                 for (const std::uint32_t y : {99U, 100U})
                     EXPECT_NEAR(share_of(corner, x, y), 0.25 * size, thin);
         }
-    // Area of the part of a disc beyond a line at half the radius.
     const double segment = radius * radius * (std::numbers::pi / 3.0 - std::sqrt(3.0) / 4.0);
     const auto aside = pieces_of({sphere_at(0.5 * radius, 0.5, 100, radius, lamp)});
     EXPECT_NEAR(share_of(aside, 199, 99), segment, thin);

@@ -10,7 +10,6 @@ import unittest
 
 SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "cmake/quickstart.sh"
 
-# A program that records its command line. Its exit status comes from FAILING.
 STAND_IN = """#!/bin/sh
 line="$(basename "$0") $*"
 echo "$line" >> "$NOTES"

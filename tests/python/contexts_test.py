@@ -117,7 +117,6 @@ class Threads(unittest.TestCase):
                 np.testing.assert_array_equal(image, expected)
 
     def test_others_run_during_calls(self):
-        """Another thread runs only if the library is called without the interpreter's lock."""
         interval = sys.getswitchinterval()
         self.addCleanup(sys.setswitchinterval, interval)
         start, ran = threading.Event(), []

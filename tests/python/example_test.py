@@ -22,7 +22,7 @@ def programs_of(page):
 
 class Examples(unittest.TestCase):
     def test_particles(self):
-        self.assertEqual([path.name for path in EXAMPLES.iterdir()], ["particles.py"])  # the only example
+        self.assertEqual([path.name for path in EXAMPLES.iterdir()], ["particles.py"])
         with tempfile.TemporaryDirectory() as folder:
             done = subprocess.run([sys.executable, "-B", EXAMPLES / "particles.py", "200", "32"], cwd=folder, text=True,
                                   capture_output=True)

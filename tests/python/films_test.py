@@ -91,7 +91,6 @@ class Films(unittest.TestCase):
         np.testing.assert_array_equal(image.radiance, self.image.radiance)
         np.testing.assert_array_equal(image.standard_error, self.image.standard_error)
         self.assertTrue((image.sample_count == SAMPLES).all())
-        # A GPU has float32 errors.
         self.assertAlmostEqual(image.error, self.image.error, delta=1e-5 * image.error)
         part = np.zeros((4, 6, 4), np.float16)
         self.whole.readback(out=part, rectangle=(3, 5, 6, 4))

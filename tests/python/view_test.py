@@ -245,7 +245,7 @@ class Views(unittest.TestCase):
         if layer == "normal":
             numbers = 0.5 + 0.5 * numbers
         elif layer == "samples":
-            numbers = np.full(values.shape, 0.5)  # all pixels are alike
+            numbers = np.full(values.shape, 0.5)
         else:
             known = np.isfinite(numbers)
             least, most = numbers[known].min(), numbers[known].max()

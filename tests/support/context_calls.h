@@ -1,4 +1,3 @@
-// Sequences of pt.h calls. If a call fails, so does the test.
 #pragma once
 
 #include "tests/support/coursework_scene.h"

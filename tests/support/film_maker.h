@@ -42,7 +42,6 @@ inline pt::SampleSet set_of(const std::set<std::uint32_t> &indices) {
     return samples;
 }
 
-// A hash of 64 bits (Steele and Vigna 2014).
 inline std::uint64_t mixed(std::uint64_t number) {
     number = (number ^ (number >> 30)) * 0xbf58476d1ce4e5b9U;
     number = (number ^ (number >> 27)) * 0x94d049bb133111ebU;

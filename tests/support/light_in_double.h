@@ -226,7 +226,7 @@ private:
         const double black = 1e-12;
         const double deviation =
             (found.mean - exact.mean) / std::sqrt(found.variance / image_count + exact.variance + black);
-        return std::isfinite(deviation) ? deviation : std::numeric_limits<double>::infinity(); // NaN must fail.
+        return std::isfinite(deviation) ? deviation : std::numeric_limits<double>::infinity();
     }
 };
 

@@ -4,7 +4,6 @@
 
 #include <span>
 
-// The arrays must outlive the returned scene, which points to them.
 inline pt_scene scene_of(std::span<const pt_material> materials, std::span<const pt_sphere> spheres,
                          std::span<const pt_plane> planes) {
     pt_scene scene{};

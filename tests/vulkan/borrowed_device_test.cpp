@@ -32,7 +32,6 @@ class QueueSpy {
 public:
     explicit QueueSpy(const vk::raii::Device &device) {
         counts = {};
-        // The device's own function table is mutable.
         using Functions = std::remove_cvref_t<decltype(*device.getDispatcher())>;
         auto *functions = const_cast<Functions *>(device.getDispatcher());
         real_submit = functions->vkQueueSubmit;

@@ -104,7 +104,6 @@ TEST(DeviceChoiceTest, SeveralAreAListOrAllOfTheBestKind) {
     EXPECT_EQ(pt::vulkan::choose_devices(workstation, "6,1"), (Indices{6, 1}));
     EXPECT_EQ(pt::vulkan::choose_devices(workstation, "3,16161616-16161616-1616161616161616"), (Indices{3, 6}));
     EXPECT_EQ(pt::vulkan::choose_devices(workstation, "llvm"), (Indices{1}));
-    // A text is a name unless it is a list of numbers. Names may contain commas.
     const std::vector<pt_device_info> with_comma = {invented(PT_DEVICE_CPU, "llvmpipe (LLVM 15, 256 bits)", 0x11)};
     EXPECT_EQ(pt::vulkan::choose_devices(with_comma, "15, 256"), (Indices{0}));
     for (const std::string wrong : {"5,7", "5,4", "5,", ",", "5,vega"})

@@ -1,4 +1,3 @@
-// Holds a device's work until the test opens the gate.
 #pragma once
 
 #include "lib/vulkan/api.h"
