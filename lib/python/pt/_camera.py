@@ -152,7 +152,7 @@ class RenderSettings:
     def _struct(self) -> structs.pt_render:
         for name, bits in (("width", 32), ("height", 32), ("max_path_length", 32), ("seed", 64), ("first_sample", 32),
                            ("first_row", 32), ("row_count", 32)):
-            if not 0 <= getattr(self, name) < 2**bits:  # ctypes would drop the higher bits
+            if not 0 <= getattr(self, name) < 2**bits:
                 raise ValueError(f"render.{name} = {getattr(self, name)}: must be at least 0 and below 2^{bits}")
         return structs.pt_render(
             width=self.width, height=self.height, max_path_length=self.max_path_length, seed=self.seed,

@@ -23,7 +23,6 @@ def _readable(array: Array) -> bool:
 
 
 def _laid_out(name: str, array: Array, components: int, count: int | None) -> Array:
-    """Returns shape (count, 3) or (count,). A single value for all rows has stride 0."""
     single = (3,) if components == 3 else ()
     if array.shape == single and count is not None:
         return np.broadcast_to(array, (count, *single))

@@ -32,7 +32,6 @@ def at_least(least: float, kind: type) -> Callable[[str], Any]:
 
 
 def misnamed(files: Sequence[tuple[str, Sequence[str]]], source: str) -> tuple[str, int] | None:
-    """Returns a message and an exit code if a name is wrong. An empty list of formats allows any ending."""
     for name, formats in files:
         place = pathlib.Path(name)
         try:

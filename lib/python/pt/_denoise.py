@@ -69,7 +69,6 @@ def find_library() -> str | None:
 
 def render_denoised(context: Context, settings: RenderSettings, samples: int, target_error: float,
                     progress: Progress | None) -> Image:
-    """Checks the error after 16 samples of each half, and again whenever the number has grown by half."""
     most = max(samples // 2, 1)
     halves = [settings, replace(settings, seed=settings.seed ^ OTHER_SEED)]
     films: list[Film | None] = [None, None]

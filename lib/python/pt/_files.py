@@ -14,7 +14,6 @@ PICTURES: Final = ("exr", "png", "jpg", "jpeg")
 
 
 def format_of(path: Path, formats: Sequence[str]) -> str:
-    """The lower-case ending without its dot. Raises ValueError for others than `formats`."""
     ending = pathlib.Path(path).suffix.lower().removeprefix(".")
     if ending not in formats:
         *others, last = (f".{each}" for each in formats)

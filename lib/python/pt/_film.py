@@ -112,7 +112,6 @@ class Film:
         return total
 
     def __radd__(self, other: int) -> Film:
-        """sum() begins with 0."""
         if other != 0:
             return NotImplemented
         return self

@@ -66,7 +66,7 @@ def _dot(direction: Doubles, places: Any) -> Doubles:
     return total
 
 
-SIDES: Final = np.vstack([np.eye(3), -np.eye(3)])  # right, up, forward, and their opposites
+SIDES: Final = np.vstack([np.eye(3), -np.eye(3)])
 
 
 @dataclass(frozen=True)

@@ -38,7 +38,6 @@ def _format_of(array: npt.NDArray[Any]) -> Format:
 
 def image_struct(pixels: npt.NDArray[Any], quantity: Quantity, shape: tuple[int, int], rectangle: Rectangle | None
                  ) -> structs.pt_image:
-    """The array must outlive the struct. Raises ValueError if the image does not fit."""
     format = _format_of(pixels)
     if not pixels.flags.writeable:
         raise ValueError("out is read-only: must be writeable")

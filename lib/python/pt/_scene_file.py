@@ -172,7 +172,6 @@ class _Handle:
         return tuple(found)
 
     def source(self, rule: BrokenRule) -> tuple[str, int]:
-        """Returns the message, and the number of the override with the value, or -1."""
         broken = structs.pt_broken_rule(
             component=-1 if rule.component is None else rule.component, index=-1 if rule.index is None else rule.index,
             subject=rule.subject.encode(), member=rule.member.encode(), value=rule.value.encode(), rule=rule.rule.encode(),

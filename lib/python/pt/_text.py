@@ -5,7 +5,6 @@ import re
 import sys
 from typing import Final, TextIO
 
-# Characters that move the cursor, change the terminal, begin a line, or reorder other characters (UAX #9, table 1).
 CONTROL: Final = re.compile("[\0-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069]")
 
 

@@ -1,5 +1,3 @@
-"""Compression by zstd with whichever Python module is installed."""
-
 from __future__ import annotations
 
 import importlib
@@ -23,7 +21,7 @@ def packer(size: int) -> Any:
     found = module()
     if found is None:
         return None
-    if hasattr(found.ZstdCompressor, "compressobj"):  # the module zstandard
+    if hasattr(found.ZstdCompressor, "compressobj"):
         return found.ZstdCompressor().compressobj(size=size)
     compressor = found.ZstdCompressor()
     compressor.set_pledged_input_size(size)

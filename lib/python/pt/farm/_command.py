@@ -27,7 +27,7 @@ from pt.farm._render import render
 from pt.farm._shown import Shown, Signals
 from pt.farm._sum import write_film
 
-SAMPLES, SAMPLES_TO_ERROR = 64, 65536  # as in pt render
+SAMPLES, SAMPLES_TO_ERROR = 64, 65536
 
 
 @contextlib.contextmanager
@@ -127,7 +127,7 @@ def render_pictures(arguments: argparse.Namespace, signals: Signals) -> int:
                     raise file.explained(Error(str(error), error.broken_rules)) from error
                 raise
             if signals.number and frame is not None:
-                break  # The frame is unfinished.
+                break
             write_pictures(result.film, arguments, file.display, frame)
             signals.is_rendering = False
             if len(result.devices) > 1 and not arguments.quiet:

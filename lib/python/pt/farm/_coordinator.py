@@ -28,7 +28,7 @@ SLOTS = 2  # parts per worker: one is rendered while another is transferred
 # Numbers of tiles that keep a device busy: on a CPU 4 for each of 16 cores, on a GPU 262,144 pixels.
 LEAST_TILES = {True: 64, False: 4096}
 LEAD = 0.05
-LATE = 3.0  # multiple of the expected duration after which a part is late
+LATE = 3.0
 LOOK_SHARE = 0.05
 
 
@@ -78,7 +78,7 @@ class Coordinator:
         parts are distributed and some have returned."""
         first_sample, has_worked = self._job.settings.first_sample, False
         self._goals = goals
-        while not self._stopped:  # The film decides whether all is complete, not the list of parts.
+        while not self._stopped:
             if self._cells is None or self._cells_at != self._progress.parts:
                 self._cells, self._cells_at = cells_of(self._sum.film, self._shape), self._progress.parts
             missing = missing_parts(self._cells, first_sample, self._goals)
@@ -264,7 +264,6 @@ class Coordinator:
 
     def _opened(self, part: Part, outcome: _task.Outcome | None, identity: Identity | None
                 ) -> tuple[_task.Outcome | None, _Opened | None]:
-        """Runs on other threads. `identity` is the expected identity of the film."""
         if outcome is None or outcome.error:
             return outcome, None
         try:

@@ -14,8 +14,6 @@ LOOK_SECONDS = 0.25
 
 
 class Crew:
-    """`identity` belongs to the films so far. `mixed` allows other devices."""
-
     def __init__(self, client: Any, packed: bytes, done: Done, progress: Progress, identity: Identity | None, *,
                  mixed: bool, patience: float) -> None:
         self._client, self._packed, self._done, self._progress = client, packed, done, progress
@@ -80,7 +78,6 @@ class Crew:
             self._compare(member, identity)
 
     def blame(self, member: Member, outcome: Outcome, most: int = MOST_FAILURES) -> None:
-        """Raises FarmError if no other worker could do better."""
         self._progress.failed += 1
         self._progress.last_result = outcome.result
         if not outcome.may_help_elsewhere:

@@ -25,7 +25,6 @@ class Identity:
 
 
 def identity_of(data: bytes) -> Identity:
-    """Raises ValueError if the bytes are not a film."""
     names = dict(line.partition(" ")[::2] for line in _header(data).decode("ascii", "replace").splitlines())
     keys = list(names)
     if FIRST not in names or LAST not in names:

@@ -50,7 +50,7 @@ class Progress:
     seconds: float = 0.0
     samples: float = 0.0  # mean over all pixels
     samples_wanted: float = 0.0  # final mean, if it is already decided
-    error: float = float("inf")  # relative error; error_high is the upper bound with 95% confidence
+    error: float = float("inf")
     error_high: float = float("inf")
     workers: int = 0
     parts: int = 0

@@ -15,7 +15,7 @@ from pt.farm._job import Job
 from pt.farm._options import FarmError, Options, Progress, Result
 from pt.farm._part import Goals, grid_shape
 
-FIRST_LOOK = 16  # fewest samples with a known error
+FIRST_LOOK = 16
 
 
 def render(client: Any, job: Job, samples: int, *, target_error: float = 0.0, sampling: Sampling = Sampling.BEST,
@@ -47,7 +47,6 @@ def render(client: Any, job: Job, samples: int, *, target_error: float = 0.0, sa
 
 
 def _to_samples(coordinator: Coordinator, job: Job, samples: int) -> Result:
-    """Renders in steps, so the picture always covers all pixels."""
     shape = grid_shape(job.settings.width, job.settings.height)
     steps = [np.full(shape, count, np.uint32) for count in _counts_to(samples)]
     ended = True

@@ -9,7 +9,7 @@ from pt._text import tell
 from pt.farm._options import Progress
 from pt.farm._workers import now
 
-SHOWN_EVERY = 1.0  # seconds
+SHOWN_EVERY = 1.0
 
 
 class Signals:

@@ -3,7 +3,7 @@ from __future__ import annotations
 FIRST_GUESS = 2000.0  # samples of tiles per second on a slow core
 LEAST_SECONDS = 0.1
 REMEMBERED = 5.0
-BUSY_SHARE = 0.5  # fraction of the coordinator's time for adding films
+BUSY_SHARE = 0.5
 
 
 class Speed:

@@ -71,7 +71,7 @@ class Sum:
 
 def _give_back() -> None:
     """Returns freed memory to the system. For each thread glibc keeps some, together more than a film."""
-    with contextlib.suppress(AttributeError, OSError):  # the C library is not glibc
+    with contextlib.suppress(AttributeError, OSError):
         ctypes.CDLL(None).malloc_trim(0)
 
 

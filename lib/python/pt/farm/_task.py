@@ -112,7 +112,6 @@ def pack(data: bytes, theirs: frozenset[str]) -> bytes:
 
 
 def unpack(data: bytes) -> bytes:
-    """Raises ValueError if the bytes are damaged."""
     try:
         return bytes(_zstd.module().decompress(data)) if data.startswith(_zstd.MAGIC) else zlib.decompress(data)
     except Exception as error:

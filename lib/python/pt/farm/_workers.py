@@ -18,7 +18,7 @@ MOST_FETCHED = 16
 
 _fetching = threading.BoundedSemaphore(MOST_FETCHED)
 
-Done = Callable[[Any, "Outcome | None"], None]  # takes a future and its outcome, or None if the worker died
+Done = Callable[[Any, "Outcome | None"], None]
 
 
 @dataclass
@@ -85,7 +85,6 @@ async def _gathered(client: Any, future: Any) -> object:
 
 
 def _fetched(client: Any, future: Any, seconds: float) -> Outcome | None:
-    """If the worker lives, a fault becomes an outcome that counts against it."""
     if future.status not in ("finished", "error"):
         return None
     try:

@@ -56,7 +56,6 @@ def load(data: Any, *, frame: int | None = None, model_number: int | None = None
 def frames(data: Any, first: int = 0, last: int = -1, *, columns: Columns = None, format: str | None = None,
            topology: str | None = None, atom_style: str | None = None, drop_nonfinite: bool = False
            ) -> Iterator[Particles]:
-    """Reads a file once. Includes the last frame."""
     if isinstance(data, Particles):
         yield data
         return

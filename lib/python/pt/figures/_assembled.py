@@ -26,11 +26,10 @@ _COLORS: Final = (("red", "green", "blue", "alpha"), ("r", "g", "b", "a"),
                   *(tuple(f"{name}:{i}" for i in range(4)) for name in ("color", "rgb")))
 _HARMONICS: Final = ("f_dc_0", "f_dc_1", "f_dc_2")  # colors of Gaussian splats: spherical harmonics of degree 0
 _HARMONIC: Final = 0.5 / np.sqrt(np.pi)
-_SHAPES: Final = (("shapex", "shapey", "shapez"), ("c_shape[1]", "c_shape[2]", "c_shape[3]"))  # diameters in LAMMPS
+_SHAPES: Final = (("shapex", "shapey", "shapez"), ("c_shape[1]", "c_shape[2]", "c_shape[3]"))
 
 
 def assembled(name: str, given: Table, mapping: Mapping[str, str], drop_nonfinite: bool) -> Particles:
-    """`mapping`, such as {"x": "pos_x", "radius": "r"}, replaces names."""
     notes = list(given.notes)
     parts, table = split_columns(name, given.columns)
     chosen = {role: column_name(parts, source, name) for role, source in mapping.items()}
@@ -172,7 +171,6 @@ def _put_radii(particles: Particles, chosen: dict[str, str]) -> None:
 
 
 def _with_extent(particles: Particles) -> Particles:
-    """If all radii are 0, they are unknown."""
     if particles.radii is None or (particles.radii != 0).all():
         return particles
     count = int((particles.radii == 0).sum())

@@ -1,5 +1,3 @@
-"""Bonds from covalent radii, a cutoff, or the data. Each is drawn as two halves."""
-
 from __future__ import annotations
 
 from dataclasses import replace

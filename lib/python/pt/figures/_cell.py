@@ -56,7 +56,7 @@ class Cell:
         if rest < 0:
             return None
         rows = np.array([[a, 0, 0], [b * gamma, b * sine, 0], [c * beta, c * across, c * np.sqrt(rest)]])
-        rows[np.abs(rows) < FLAT * np.abs(rows).max(initial=0)] = 0  # cos(90 degrees) is not exactly 0
+        rows[np.abs(rows) < FLAT * np.abs(rows).max(initial=0)] = 0
         return Cell.of(rows, periodic=periodic, is_crystal_of_macromolecule=is_crystal_of_macromolecule)
 
     @functools.cached_property

@@ -61,7 +61,6 @@ def plain_name(name: str) -> str:
 
 
 def column_name(columns: Mapping[str, Array], name: str, data: str) -> str:
-    """Accepts a name in any case, or a number from 1 if columns have no names."""
     if name in columns:
         return name
     similar = [each for each in columns if each.lower() == name.lower()]

@@ -70,7 +70,7 @@ def distinct(labels: Array) -> tuple[Array, Array]:
     codes = np.full(len(labels), -1, np.int32)
     values: list[Any] = []
     while (first := int(np.argmin(codes))) < len(labels) and codes[first] < 0:
-        if len(values) == 64:  # comparing is faster than sorting up to here
+        if len(values) == 64:
             unique, indices = np.unique(labels, return_inverse=True)
             return unique, indices.astype(np.int32).reshape(-1)
         codes[labels == labels[first]] = len(values)
@@ -108,7 +108,7 @@ def elements_of(labels: Array) -> tuple[Array | None, list[str]]:
     values, codes = distinct(labels)
     names = [str(value) for value in values]
     if "A" in names and all(len(name) == 1 for name in names):
-        return None, []  # A and B are kinds of particles, as in Lennard-Jones mixtures
+        return None, []
     is_atom_name = bool(_ATOM_NAMES.intersection(map(_letters, names)))
     numbers = [_number(name, is_atom_name) for name in names]
     if not any(numbers):

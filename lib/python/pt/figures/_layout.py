@@ -13,7 +13,7 @@ from pt.figures._options import Direction
 from pt.figures._stage import FLOOR, FLOOR_GAP, Stage, make_stage
 from pt.figures._view import Compass, relative_height, toward_camera, up_vector, view_axes
 
-VERTICAL_FOV: Final = 20.0 * math.pi / 180.0  # wide angles would distort balls at the sides
+VERTICAL_FOV: Final = 20.0 * math.pi / 180.0
 MARGIN: Final = 0.03  # free fraction of the picture at each side; by taste
 PIXELS: Final = 1024.0 * 768.0
 MOST_ASPECT: Final = 2.0
@@ -130,7 +130,6 @@ class Layout:
 
 
 def _rotation(axis: Doubles, angle: float) -> Doubles:
-    """Rodrigues: cos 1 + sin [axis]x + (1 - cos) axis axis^T."""
     crossed = np.cross(axis, np.eye(3)).T
     result: Doubles = (math.cos(angle) * np.eye(3) + math.sin(angle) * crossed +
                        (1.0 - math.cos(angle)) * np.outer(axis, axis))

@@ -63,7 +63,6 @@ def save(legend: Legend, file: Any, format: str) -> None:
 
 
 def raster(legend: Legend, height: int, ink: Any) -> npt.NDArray[np.float64]:
-    """No higher than the picture, if the text allows."""
     font = max(9.0, 0.02 * height * POINTS_PER_INCH / PIXELS_PER_INCH)
     buffer = io.BytesIO()
     draw(legend, 0.62 * height / PIXELS_PER_INCH, font, ink).savefig(

@@ -13,7 +13,7 @@ Array = npt.NDArray[Any]
 MOST_COMPARED: Final = 400_000_000  # pairs, which take about a minute
 MOST_FOUND: Final = 20_000_000
 COMPARED_AT_ONCE: Final = 1 << 21
-SLACK: Final = 1.0 + 2.0**-30  # rounding must not move a neighbour two cells away
+SLACK: Final = 1.0 + 2.0**-30
 AHEAD: Final = ((0, 1), (1, -1), (1, 0), (1, 1))  # neighbouring rows in a grid, without their opposites
 
 
@@ -89,7 +89,7 @@ def _images(positions: Array, cell: Cell | None, cutoff: float) -> tuple[Array, 
 
 def _candidates(places: Array, cutoff: float) -> Iterator[tuple[Array, Array]]:
     low = places.min(axis=0)
-    side = max(cutoff * SLACK, float((places.max(axis=0) - low).max()) * 2.0**-20)  # keys must fit into 64 bits
+    side = max(cutoff * SLACK, float((places.max(axis=0) - low).max()) * 2.0**-20)
     cells = np.floor((places - low) / side).astype(np.int64) + 1
     _, columns, layers = cells.max(axis=0) + 2
     keys = (cells[:, 0] * columns + cells[:, 1]) * layers + cells[:, 2]

@@ -15,7 +15,7 @@ from pt._fit import Array, Doubles
 PER_SIDE: Final = 4
 MOST_PER_SIDE: Final = 32  # random coverage then has a standard deviation of 0.016
 MOST_RAYS: Final = 2**32 - 1
-BAND_ROWS: Final = 32  # rows whose hits take less device memory than the picture
+BAND_ROWS: Final = 32
 LEAST_STEP: Final = 0.1
 LEAST_RADIUS: Final = 2.5
 
@@ -43,7 +43,6 @@ def line_width(size: tuple[int, int]) -> float:
 
 
 def rays_per_side(samples: float, pixels: int) -> int:
-    """Opacity makes coverage random, so it takes as many rays as samples."""
     most = min(MOST_PER_SIDE, math.isqrt(MOST_RAYS // pixels))
     return max(min(math.ceil(math.sqrt(samples)), most), PER_SIDE)
 

@@ -187,7 +187,6 @@ def typical_radius(positions: Array) -> float:
 
 
 def _neighbour_distances(positions: Array) -> tuple[Array, Array]:
-    """Only adjacent cells of a grid are searched."""
     count = len(positions)
     fourth = min(4, max(count // 3, 1)) - 1
     low, high = (np.array([end(column) for column in positions.T], np.float64) for end in (np.min, np.max))
@@ -200,7 +199,7 @@ def _neighbour_distances(positions: Array) -> tuple[Array, Array]:
     if count <= 27 * IN_CELL:
         side = 2.0 * float(extent.max())
     sample = positions[::max(count // 50_000, 1)]
-    for _ in range(8):  # a cluster's box is nearly empty, so cells must shrink
+    for _ in range(8):
         _, begin, end = _near(sample, places, low, side)
         crowd = float(np.median((end - begin).sum(axis=1))) * count / len(sample)
         if crowd <= 64 * IN_CELL:

@@ -28,7 +28,7 @@ _IONS: Final = {**{symbol: _NUMBERS[symbol] for symbol in (
     "LI NA K RB CS MG CA SR BA ZN FE MN CU NI CO CD HG AG AU AL PB TL CR V Y LA CE EU GD TB YB LU PT F CL BR I").split()},
     "SOD": 11, "CLA": 17, "POT": 19, "CAL": 20, "CES": 55, "RUB": 37, "LIT": 3, "BAR": 56, "IOD": 53, "CIO": 55, "CIM": 17,
     "CIP": 11, "IB": 35}
-_CHARGED: Final = frozenset(("ION", "IONS", "IB"))  # GROMACS residues with several kinds of ions
+_CHARGED: Final = frozenset(("ION", "IONS", "IB"))
 _TWO_LETTERS: Final = frozenset("CL BR FE ZN MG MN CU SI SE LI AL AG AU PT RU RH IR TI ZR MO AS".split())
 _ONE_LETTER: Final = frozenset("HCNOPSFBID")
 _POLYMERS: Final = frozenset("HCNOPSD")
@@ -51,10 +51,10 @@ def element_of(name: str, residue: str) -> int:
     if is_water or is_polymer(residue):
         if capitals.startswith("SE") and residue in ("MSE", "SEC"):
             return 34
-        if capitals[0] in "ML":  # masses and lone pairs of force fields
+        if capitals[0] in "ML":
             return VIRTUAL
         return _NUMBERS[capitals[0]] if capitals[0] in _POLYMERS else 0
-    if capitals == "WAT":  # water in crystals
+    if capitals == "WAT":
         return 8
     is_symbol = len(letters) > 1 and letters[0].isupper() and letters[1].islower() and capitals[:2] in _NUMBERS
     if is_symbol or capitals[:2] in _TWO_LETTERS:
@@ -67,7 +67,6 @@ def is_free_ion(residue: str) -> bool:
 
 
 def is_polymer(residue: str) -> bool:
-    """N or C at the ends of chains is a mark of AMBER."""
     return residue in AMINO_ACIDS or residue in NUCLEOTIDES or (
         len(residue) == 4 and residue[0] in "NC" and residue[1:] in AMINO_ACIDS)
 

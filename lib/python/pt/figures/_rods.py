@@ -72,7 +72,6 @@ def cell_corners(cell: Cell) -> Doubles:
 
 
 def cell_edges(cell: Cell) -> Doubles:
-    """Both ends, shape (2, 12, 3). A flat cell has four edges."""
     corners = cell_corners(cell)
     steps = [1 << edge for edge in range(len(corners).bit_length() - 1)]
     pairs = [(k, k | step) for k in range(len(corners)) for step in steps if not k & step]

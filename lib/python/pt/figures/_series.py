@@ -62,7 +62,6 @@ def _rule(particles: Particles, drawn: Drawn, options: Options) -> Radius:
 
 
 def turntable(particles: Particles, count: int, options: Options) -> Iterator[Staged]:
-    """Turns about the vertical axis, counterclockwise from above. Lamps move with the camera."""
     drawn = prepare(particles, options)
     view = view_of(drawn, options, turns=True)
     for k in range(count):

@@ -17,7 +17,6 @@ def middle_of(positions: Array) -> Doubles:
 
 
 def reaches_of(positions: Array, radii: Array) -> Doubles:
-    """The largest distance of each ball from the middle along an axis, shape (n,). `radii` has shape (n,) or (1,)."""
     middle = middle_of(positions)[:, None]
     reaches = np.broadcast_to(radii, len(positions)).astype(np.float64)
     for rows in chunks(len(positions)):

@@ -8,7 +8,7 @@ from pt._fit import Doubles
 from pt._scene import Material, Plane, Sphere
 
 # A surface that faces the key lamp, in full view of the surround, has its albedo as the radiance, as in the legend.
-SURROUND_BRIGHTNESS: Final = 0.4375  # few bits, so means are exact
+SURROUND_BRIGHTNESS: Final = 0.4375
 KEY_BRIGHTNESS: Final = 0.75
 KEY_HALF_ANGLE: Final = math.radians(14.0)
 KEY_AZIMUTH: Final = math.radians(-35.0)

@@ -180,7 +180,6 @@ class _Reader:
             self.left_out["FOG"] = f"{place}: FOG: it is left out, far surfaces have their full colors"
 
     def ring(self) -> None:
-        """Leaves out a ring that closes the preceding cylinder, as VMD writes it."""
         words = self.words
         center, _ = words.vector("CENTER"), words.direction("NORMAL")
         inner, outer = words.named("INNER"), words.named("OUTER")

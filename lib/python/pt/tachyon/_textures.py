@@ -1,5 +1,3 @@
-"""Materials, which Tachyon calls textures."""
-
 from __future__ import annotations
 
 from pt._scene import Material
@@ -18,7 +16,7 @@ class Textures:
         self._words = words
         self._left_out = left_out
         self._named: dict[str, int] = {}
-        self._indices: dict[Material, int] = {}  # Equal textures share a material.
+        self._indices: dict[Material, int] = {}
         self.materials: list[Material] = []
 
     def define(self) -> None:
@@ -43,7 +41,7 @@ class Textures:
 
     def _body(self) -> int:
         words = self._words
-        words.named("AMBIENT", least=0.0)  # indirect light replaces AMBIENT
+        words.named("AMBIENT", least=0.0)
         diffuse = words.named("DIFFUSE", least=0.0)
         mirror = words.named("SPECULAR", least=0.0)
         if words.named("OPACITY", least=0.0) < 1.0:

@@ -8,8 +8,6 @@ from pt._vectors import Triple
 
 
 class Words:
-    """Keywords may have any case; # begins a comment. ValueErrors name the file and the line."""
-
     def __init__(self, lines: Iterable[str], name: str) -> None:
         self._lines: Iterator[str] = iter(lines)
         self._name = name

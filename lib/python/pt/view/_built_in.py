@@ -15,7 +15,7 @@ from pt._errors import Error
 from pt._scene import Scene
 
 SHARE: Final = 0.05  # the library's kernel gets this fraction of the edited kernel's time
-FIRST_LOOK: Final = 16  # samples of the first comparison
+FIRST_LOOK: Final = 16
 MIN_CHANGE: Final = 0.01
 
 
@@ -34,7 +34,6 @@ class BuiltIn:
         self.verdict = ""
 
     def begin(self, scene: Scene, camera: Camera, settings: RenderSettings) -> None:
-        """Samples stay if the picture stays."""
         self._owed, self._looks, self._looked_at, self._differs, self.verdict = 0.0, 0, 0, False, ""
         try:
             if self._context is None:

@@ -32,10 +32,10 @@ class Renderer:
                  device: str | None = None, most: int = 65536, size: tuple[int, int] | None = None) -> None:
         self._source, self._published, self._device, self._most = source, published, device, most
         self._shader_dir = shader_dir
-        self._built_in: BuiltIn | None = None  # set once a kernel was edited
-        self._begins = True  # whether a test of a kernel begins
+        self._built_in: BuiltIn | None = None
+        self._begins = True
         self._context: Context | None = None
-        self._faults: dict[str, str] = {}  # messages by cause
+        self._faults: dict[str, str] = {}
         self._history: list[list[float]] = []
         self._guides: dict[str, Array] = {}
         self._playing, self._moving, self._layer = True, False, "mean"

@@ -19,7 +19,7 @@ from pt.figures.readers._structures import divide_chains, frames_of
 
 SHARED: Final = 0.4  # angstroms: closer sites share one position
 
-WHOLE: Final = 0.99  # occupancy
+WHOLE: Final = 0.99
 ROUNDED: Final = 1e-4  # fraction of an edge: coordinates this little below 0 are not wrapped
 
 
@@ -39,7 +39,7 @@ def read_cif(lines: Lines) -> Listed:
     for block in blocks:
         for tag in ("_symmetry_Int_Tables_number", "_space_group_IT_number"):
             if value := block.find_value(tag):
-                block.set_pair(tag, gemmi.cif.as_string(value) or "?")  # gemmi does not read quoted values
+                block.set_pair(tag, gemmi.cif.as_string(value) or "?")
 
     def read(index: int) -> Table:
         structure = tried(lines.name, "gemmi", lambda: gemmi.make_small_structure_from_block(blocks[index]))
@@ -83,7 +83,6 @@ def _set_symmetry(structure: Any, notes: list[str]) -> None:
 
 
 def _choose_sites(structure: Any, notes: list[str]) -> None:
-    """Keeps the alternative group with the highest occupancy."""
     sites = [site for site in structure.sites if np.isfinite(site.fract.tolist()).all()]
     if len(sites) < len(structure.sites):
         notes.append(f"{len(structure.sites) - len(sites):,} sites without a position are left out")

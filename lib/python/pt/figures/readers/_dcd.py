@@ -9,8 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 _CONTROL: Final = 8  # byte offset of 20 numbers, after a marker and CORD
-_TITLE: Final = 92  # byte offset of the next record
-_LENGTHS: Final = (0, 2, 5)  # indices of the edge lengths among the numbers of a cell
+_TITLE: Final = 92
+_LENGTHS: Final = (0, 2, 5)
 
 
 def frames_without_cell(path: str) -> npt.NDArray[Any] | None:

@@ -64,11 +64,10 @@ class TextFrames:
         self.name = lines.name
         self.notes: list[str] = []
         self._empty = 0
-        self._places = [lines.place()]  # positions of known frames, and of the end of the last one
+        self._places = [lines.place()]
         self._is_whole = False
 
     def head(self) -> int | None:
-        """The next frame's number of particles, or None at the end of the file."""
         raise NotImplementedError
 
     def body(self, count: int) -> Table:
@@ -93,7 +92,7 @@ class TextFrames:
             count = self._next()
         except DataError:
             if index:
-                self.read(index - 1)  # The error then has a more precise line.
+                self.read(index - 1)
             raise
         if count is None:
             self._is_whole = True

@@ -12,9 +12,9 @@ from pt.figures.readers._atoms import atoms_table
 from pt.figures.readers._frames import TextFrames
 from pt.figures.readers._rows import are_numbers, is_number, shown
 
-ANGSTROMS: Final = 10.0  # angstroms per nanometre
+ANGSTROMS: Final = 10.0
 _NAMES: Final = {"resid": slice(0, 5), "resname": slice(5, 10), "name": slice(10, 15)}
-_START: Final = 20  # column at which positions begin
+_START: Final = 20
 _BOX: Final = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 0), (1, 2), (2, 0), (2, 1))
 
 
@@ -66,7 +66,7 @@ class Gro(TextFrames):
                 columns[name] = words.astype(np.int64 if name == "resid" else np.float64)
             except ValueError:
                 if name not in "xyz":
-                    continue  # some rows may lack velocities or residue numbers
+                    continue
                 texts = [word.decode("utf-8", "replace").strip() for word in words]
                 row = next(row for row, text in enumerate(texts) if not text or not is_number(text))
                 raise DataError(f"{self.lines.name}:{first + row}: {name} = {texts[row]!r}: must be a number of {width} "

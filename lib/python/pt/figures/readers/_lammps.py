@@ -19,7 +19,7 @@ HEAD_ENDS = "the file ends within the header of a frame: it was cut short"
 
 
 class LammpsDump(TextFrames):
-    marks: re.Pattern[bytes] | None = None  # parts of rows that are skipped
+    marks: re.Pattern[bytes] | None = None
 
     def __init__(self, lines: Lines) -> None:
         super().__init__(lines)

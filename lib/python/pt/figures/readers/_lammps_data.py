@@ -32,7 +32,7 @@ STYLES: Final = {style: columns.split() for style, columns in {
     "smd": "id type mol volume mass kernel_radius contact_radius x0 y0 z0 x y z",
     "mesont": "id mol type tube mass radius length buckling_type x y z"}.items()}
 STYLES.update(bond=STYLES["molecular"], angle=STYLES["molecular"], amoeba=STYLES["full"])
-_OF_COUNT: Final = {5: ("atomic",), 6: ("charge", "molecular"), 7: ("full", "sphere")}  # styles by number of columns, without image flags
+_OF_COUNT: Final = {5: ("atomic",), 6: ("charge", "molecular"), 7: ("full", "sphere")}
 _SECTION: Final = re.compile(r"[A-Z][A-Za-z]+( [A-Z]?[A-Za-z]+)* ?( Coeffs)?")
 _HEADER: Final = re.compile(r"(\d+)\s+([a-z][a-z ]*)")
 _BOUNDS: Final = re.compile(r"(.+?)\s+(xlo xhi|ylo yhi|zlo zhi|xy xz yz|avec|bvec|cvec|abc origin)")
@@ -69,7 +69,7 @@ class LammpsData:
             if text[:1].isupper() and _SECTION.fullmatch(text):
                 self._section(text, hint.strip())
             elif self.columns:
-                continue  # skips other sections
+                continue
             elif found := _BOUNDS.fullmatch(text):
                 self.box[found[2]] = self._numbers(found[1], 2 if "lo" in found[2] else 3)
             elif found := _HEADER.fullmatch(text):

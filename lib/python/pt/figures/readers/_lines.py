@@ -43,7 +43,7 @@ class Lines:
         except OSError as error:
             raise DataError(f"{self.name}: {error.strerror}") from None
         self.is_file = self._raw.seekable() and path != STANDARD_INPUT
-        if not self.is_file:  # frames of a pipe may be read twice
+        if not self.is_file:
             pipe, self._raw = self._raw, tempfile.TemporaryFile()
             shutil.copyfileobj(pipe, self._raw)
             if path != STANDARD_INPUT:
@@ -59,7 +59,7 @@ class Lines:
         self._file = self._raw if unpack is None else unpack(self._raw)
         self._buffer = b""
         self._next = 0
-        self._passed = 0  # bytes before the buffer
+        self._passed = 0
         self.number = 0
         self.is_ended = True
         start = self.peek(3)
@@ -187,7 +187,7 @@ def _after_lines(data: bytes, start: int, end: int, most: int) -> tuple[int, int
     while count < most and start < end:
         stop = min(end, start + 64 * (most - count))
         is_end = np.frombuffer(data, np.uint8, stop - start, start) == 10
-        found = int(np.count_nonzero(is_end))  # faster than bytes.count on short lines
+        found = int(np.count_nonzero(is_end))
         if count + found >= most:
             return start + int(np.flatnonzero(is_end)[most - count - 1]) + 1, most
         count, start = count + found, stop

@@ -30,7 +30,7 @@ def read_molecules(lines: Lines, format: str) -> Listed:
     chemfiles = module("chemfiles", f"{lines.name}: {format}")
     text = lines.text().decode("utf-8", "replace")
     if format == "mol2" and "@<TRIPOS>BOND" not in text:
-        text += "\n@<TRIPOS>BOND\n"  # chemfiles requires the section
+        text += "\n@<TRIPOS>BOND\n"
     file = tried(lines.name, "chemfiles", lambda: chemfiles.MemoryTrajectory(text, "r", MOLECULES[format]))
     count = file.nsteps
     if not count:

@@ -22,7 +22,6 @@ def of_ase(atoms: Any) -> Table:
 
 
 def of_mdanalysis(group: Any, name: str) -> Frames:
-    """Lengths are in angstroms."""
     atoms = group.atoms
     trajectory = group.universe.trajectory
 

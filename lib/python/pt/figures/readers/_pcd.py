@@ -26,7 +26,7 @@ def read_pcd(lines: Lines) -> Table:
     try:
         counts = map(int, head.get("COUNT", ["1"] * len(head["FIELDS"])))
         for name, kind, size, width in zip(head["FIELDS"], head["TYPE"], head["SIZE"], counts, strict=True):
-            for i in range(width):  # padding fields may have equal names
+            for i in range(width):
                 key = name if width == 1 and name not in kinds else f"{name}[{i or len(kinds)}]"
                 kinds[key] = np.dtype({"F": "f", "U": "u", "I": "i"}[kind] + size).str
         count = int(head["POINTS"][0])
@@ -41,7 +41,6 @@ def read_pcd(lines: Lines) -> Table:
 
 
 def _with_colors(columns: dict[str, npt.NDArray[Any]]) -> dict[str, npt.NDArray[Any]]:
-    """Colors are three bytes in a 32-bit number of any type."""
     for name in _PACKED_COLORS:
         if name in columns and columns[name].dtype.itemsize == 4:
             packed = np.ascontiguousarray(columns.pop(name)).view(np.uint32)

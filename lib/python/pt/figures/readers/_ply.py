@@ -24,7 +24,7 @@ _ORDERS: Final = {"ascii": "", "binary_little_endian": "<", "binary_big_endian":
 class _Element:
     name: str
     count: int
-    properties: list[tuple[str, str, str]]  # name, type and, for lists, the type of the length
+    properties: list[tuple[str, str, str]]
 
 
 def read_ply(lines: Lines) -> Table:
@@ -119,7 +119,7 @@ def _by_value(lines: Lines, element: _Element, order: str) -> dict[str, Array]:
                     values[name].append(found[0])
         except DataError:
             raise
-        except (ValueError, OverflowError) as error:  # text that is not a number, or a negative length of a list
+        except (ValueError, OverflowError) as error:
             raise lines.refuse(f"{shown(line)}: {error}") from None
         if words:
             raise lines.refuse(f"{shown(line)}: has {len(words)} more values than the header states")

@@ -17,7 +17,7 @@ def read_poscar(lines: Lines) -> Table:
     comment = _line(lines)
     scales = _numbers(lines, (1, 3))
     vectors = np.array([_numbers(lines, (3,)) for _ in range(3)])
-    if len(scales) == 1 and scales[0] < 0:  # a negative factor is the volume
+    if len(scales) == 1 and scales[0] < 0:
         scales = [float((-scales[0] / abs(np.linalg.det(vectors))) ** (1 / 3))]
     scale = np.array(scales if len(scales) == 3 else scales * 3)
     line = _line(lines)

@@ -52,7 +52,7 @@ def number(text: str, decimal: str = ".") -> float:
     if text in MISSING:
         return np.nan
     if "_" in text:
-        raise ValueError(text)  # float() would accept this text
+        raise ValueError(text)
     return float(_EXPONENT.sub(r"\1e\2", text if decimal == "." else text.replace(decimal, ".")))
 
 
@@ -164,10 +164,10 @@ class Rows:
                 dtype={i: "category" for i in range(width) if self._are_words[i]}, keep_default_na=False,
                 na_values={i: list(MISSING) for i in range(width) if not self._are_words[i]}, low_memory=False,
                 encoding_errors="replace", engine="c",
-                **({"float_precision": "round_trip"} if pandas.__version__ < "3" else {}))  # as pandas 3 does by default
+                **({"float_precision": "round_trip"} if pandas.__version__ < "3" else {}))
         except (ValueError, OverflowError):
             return None
-        may_skip = layout.is_table and b'"' not in data  # pandas may skip blank lines
+        may_skip = layout.is_table and b'"' not in data
         if frame.shape[1] != width or len(frame) > height or (len(frame) < height and not may_skip):
             return None
         columns: list[Array] = []

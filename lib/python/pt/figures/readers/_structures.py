@@ -24,9 +24,9 @@ Array = npt.NDArray[Any]
 _ATOMS: Final = frozenset((b"ATOM  ", b"HETATM"))
 _OTHERS: Final = frozenset((b"HEADER", b"EXPDTA", b"SSBOND", b"LINK  ", b"CONECT"))
 _ELEMENT_AND_CHARGE: Final = re.compile(rb"( [A-Za-z]|[A-Za-z][A-Za-z]|[A-Za-z] )( *|[1-9][+-])")
-_DEUTERIUM: Final = 119  # gemmi's number for deuterium
-PART: Final = 5000  # most atoms in a part of a chain
-_OTHER_PART: Final = "\x7f"  # suffix for the name of every second part of a chain
+_DEUTERIUM: Final = 119
+PART: Final = 5000
+_OTHER_PART: Final = "\x7f"
 
 
 def read_pdb(lines: Lines, is_pdbqt: bool = False) -> Listed:
@@ -71,7 +71,7 @@ def _split(lines: list[bytes], completed: Callable[[bytes], bytes]) -> tuple[lis
                 number = int(line[6:])
     cells = [model[0] for _, model in models if model[0]]
     for _, model in models:
-        model[0] = model[0] or next(iter(cells), b"")  # a cell may follow its model
+        model[0] = model[0] or next(iter(cells), b"")
     return others, models
 
 
@@ -80,7 +80,7 @@ def _in_columns(line: bytes) -> bytes:
         a, b, c, alpha, beta, gamma = map(float, line[6:].split()[:6])
         return f"CRYST1{a:9.3f}{b:9.3f}{c:9.3f}{alpha:7.2f}{beta:7.2f}{gamma:7.2f}".encode() + line.rstrip()[54:]
     except ValueError:
-        return line  # numbers may touch
+        return line
 
 
 def _with_element(line: bytes) -> bytes:
@@ -161,7 +161,6 @@ def _table(structure: Any, flat: Any, chains: Array, rows: slice) -> Table:
 
 
 def _words(letters: Array) -> Array:
-    """Each row of `letters` is a word, padded with zeros."""
     rows = np.ascontiguousarray(letters).view(np.uint8)
     width = max(1, int((rows != 0).any(axis=0).sum()))
     packed = np.ascontiguousarray(rows[:, :width]).view(f"S{width}").reshape(-1)
@@ -218,7 +217,6 @@ def _connections(structure: Any, columns: dict[str, Array]) -> Iterator[tuple[in
 
 
 def _conect(structure: Any, serials: Array, notes: list[str]) -> Iterator[tuple[int, int]]:
-    """Skips ambiguous serial numbers."""
     table = structure.conect_map
     if not table:
         return

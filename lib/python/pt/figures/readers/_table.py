@@ -24,7 +24,7 @@ def read_table(lines: Lines, mapping: Mapping[str, str]) -> Table:
         start = lines.place()
     if line is None:
         raise lines.refuse("the file has no rows")
-    if line.strip().isdecimal() and lines.peek(1):  # scanners write the number of points first
+    if line.strip().isdecimal() and lines.peek(1):
         start = lines.place()
         line = lines.line() or ""
     layout, has_names = _layout(line, comment, lines)

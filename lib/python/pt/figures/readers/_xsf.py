@@ -40,7 +40,7 @@ def read_xsf(lines: Lines) -> Listed:
             steps.append((vectors, rows))
             continue
         elif word.startswith("BEGIN_BLOCK"):
-            break  # grids of numbers follow
+            break
         line = lines.line()
     steps = [step for step in steps if step[1]]
     if not steps:
