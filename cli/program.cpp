@@ -57,8 +57,9 @@ int run_program(int argument_count, char **arguments) {
                    std::string(exit_code_help));
     program.set_version_flag("--version", "pt " + version_text(), "Print the version and exit");
     program.set_help_flag("-h,--help", "Print this help and exit");
-    for (const auto add : {add_render_command, add_tonemap_command, add_compare_command, add_merge_command,
-                           add_denoise_command, add_selftest_command, add_schema_command, add_devices_command})
+    for (const auto add :
+         {add_render_command, add_tonemap_command, add_compare_command, add_merge_command, add_denoise_command,
+          add_selftest_command, add_course_command, add_schema_command, add_devices_command})
         add(program, chosen);
 
     const std::string name = argument_count > 1 ? arguments[1] : "";

@@ -1,8 +1,6 @@
 #include "cli/compare/kernels.h"
 
-#include "cli/base/context.h"
 #include "cli/render/render_task.h"
-#include "cli/scene/scene.h"
 #include "lib/scene_file/sphere_columns.h"
 
 #include <algorithm>
@@ -19,8 +17,8 @@ constexpr std::uint32_t least_equal = 256;
 
 class Rendering {
 public:
-    Rendering(const KernelTask &task, const SceneFile &scene, const char *shader_dir) :
-        context_(create_info(task, shader_dir)),
+    Rendering(const Context &context, const SceneFile &scene) :
+        context_(context),
         settings_(scene.render),
         window_(whole_window(settings_.width, settings_.height)),
         radiance_(3 * window_.part.pixel_count()) {
@@ -41,33 +39,40 @@ public:
     }
 
 private:
-    static pt_create_info create_info(const KernelTask &task, const char *shader_dir) {
-        auto info = sized<pt_create_info>();
-        info.device = task.device.empty() ? nullptr : task.device.c_str();
-        info.shader_dir = shader_dir;
-        return info;
-    }
-
-    Context context_;
+    const Context &context_;
     pt_render settings_;
     ImageWindow window_;
     std::vector<float> radiance_;
     std::uint32_t samples_ = 0;
 };
 
+pt_create_info create_info(const KernelTask &task, const char *shader_dir) {
+    auto info = sized<pt_create_info>();
+    info.device = task.device.empty() ? nullptr : task.device.c_str();
+    info.shader_dir = shader_dir;
+    return info;
+}
+
 } // namespace
 
 LightVerdict compare_kernels(const KernelTask &task, const TellLook &told) {
     SceneFile scene = read_scene_file(task.scene, task.overrides);
     load_columns(scene);
-    const std::uint32_t most =
-        scene.gives({{"render", 0, false}, {"spp", 0, false}}) ? scene.sample_count.value() : usual_samples;
-    Rendering edited(task, scene, task.shader_dir.c_str());
-    Rendering built_in(task, scene, nullptr);
+    const Context edited(create_info(task, task.shader_dir.c_str()));
+    const Context built_in(create_info(task, nullptr));
+    const bool gives_count = scene.gives({{"render", 0, false}, {"spp", 0, false}});
+    const std::uint32_t most = gives_count ? scene.sample_count.value() : usual_samples;
+    return compare_kernels(edited, built_in, scene, most, task.rule, told);
+}
+
+LightVerdict compare_kernels(const Context &edited_context, const Context &built_in_context, const SceneFile &scene,
+                             std::uint32_t most, const LightRule &rule, const TellLook &told) {
+    Rendering edited(edited_context, scene);
+    Rendering built_in(built_in_context, scene);
     for (std::uint32_t look = 1, samples = std::min(first_look, most);; ++look, samples = std::min(2 * samples, most)) {
         edited.render_up_to(samples);
         built_in.render_up_to(samples);
-        LightVerdict verdict = test_light(edited.image(), built_in.image(), task.rule, look);
+        LightVerdict verdict = test_light(edited.image(), built_in.image(), rule, look);
         told(samples, verdict);
         const bool is_early = verdict.comparison.light == PT_LIGHT_EQUAL_BITS && samples < least_equal;
         if ((verdict.is_decided() && !is_early) || samples == most)

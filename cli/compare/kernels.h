@@ -1,8 +1,11 @@
 #pragma once
 
+#include "cli/base/context.h"
 #include "cli/compare/light.h"
+#include "cli/scene/scene.h"
 #include "cli/scene/scene_options.h"
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -21,5 +24,9 @@ using TellLook = std::function<void(std::uint32_t samples, const LightVerdict &v
 
 // Compares after 16 samples and at each doubling, up to the scene's number or 65536. Throws Failure.
 LightVerdict compare_kernels(const KernelTask &task, const TellLook &told);
+
+// The same for two contexts and a scene without files of columns, up to `most` samples.
+LightVerdict compare_kernels(const Context &edited, const Context &built_in, const SceneFile &scene, std::uint32_t most,
+                             const LightRule &rule, const TellLook &told);
 
 } // namespace cli

@@ -1,9 +1,11 @@
 #pragma once
 
+#include "cli/base/context.h"
 #include "cli/scene/scene.h"
 
 #include <pt/devices.h>
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -44,6 +46,10 @@ std::vector<SelftestScene> weight_scenes();
 
 // Samples are cosines of sampled directions. The checks are means, second moments, and the fraction on each side.
 std::vector<SelftestScene> direction_scenes();
+
+// Renders in several calls and returns three values a pixel.
+std::vector<float> render_radiance(const Context &context, const SceneFile &scene,
+                                   const std::vector<std::uint32_t> &sample_counts);
 
 struct SelftestReport {
     pt_device_info device;

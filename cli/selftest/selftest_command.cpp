@@ -69,21 +69,6 @@ std::vector<SelftestCheck> check_functions(const Context &context) {
     return checks;
 }
 
-std::vector<float> render(const Context &context, const SceneFile &scene,
-                          const std::vector<std::uint32_t> &sample_counts) {
-    describe_scene(context, scene, [](double) { return true; });
-    context.require(pt_set_render(context.get(), &scene.render));
-    for (const std::uint32_t sample_count : sample_counts) {
-        auto info = sized<pt_accumulate_info>();
-        info.sample_count = sample_count;
-        context.require(pt_accumulate(context.get(), &info));
-    }
-    const pt_render &image = scene.render;
-    std::vector<float> radiance(std::size_t{3} * image.width * image.height);
-    context.read(0, image.width, image.height, PT_QUANTITY_RADIANCE, radiance.data());
-    return radiance;
-}
-
 double differing_values(std::span<const float> a, std::span<const float> b) {
     return std::inner_product(a.begin(), a.end(), b.begin(), 0.0, std::plus<>(), [](float x, float y) {
         return std::bit_cast<std::uint32_t>(x) == std::bit_cast<std::uint32_t>(y) ? 0.0 : 1.0;
@@ -94,9 +79,9 @@ double differing_values(std::span<const float> a, std::span<const float> b) {
 SelftestCheck check_splits(const Context &context) {
     const SelftestScene ball = lamp_in_a_ball();
     const std::uint32_t count = ball.scene.sample_count.value();
-    const std::vector<float> one_call = render(context, ball.scene, {count});
-    const std::vector<float> two_calls = render(context, ball.scene, {count / 3, count - count / 3});
-    const std::vector<float> many_calls = render(context, ball.scene, std::vector<std::uint32_t>(count, 1));
+    const std::vector<float> one_call = render_radiance(context, ball.scene, {count});
+    const std::vector<float> two_calls = render_radiance(context, ball.scene, {count / 3, count - count / 3});
+    const std::vector<float> many_calls = render_radiance(context, ball.scene, std::vector<std::uint32_t>(count, 1));
     const double differing = differing_values(one_call, two_calls) + differing_values(one_call, many_calls);
     return {"invariance", "samples split over calls", differing, 0.0, "values", "that differ in \"" + ball.name + "\""};
 }
@@ -107,7 +92,7 @@ std::vector<SelftestCheck> check_scenes(const Context &context, const std::vecto
     std::vector<SelftestCheck> checks;
     double left_out = 0.0;
     for (const SelftestScene &scene : scenes) {
-        checks.push_back(scene.judge(render(context, scene.scene, {scene.scene.sample_count.value()})));
+        checks.push_back(scene.judge(render_radiance(context, scene.scene, {scene.scene.sample_count.value()})));
         checks.back().group = group;
         left_out += static_cast<double>(context.stats().rejected_samples);
     }
@@ -162,6 +147,21 @@ void add_selftest_command(CLI::App &program, Run &chosen) {
     command.add_flag("--directions", options.directions,
                      "Check the directions that kernels sample and the weights of lamps alone");
     add_shader_dir(command, options.shader_dir);
+}
+
+std::vector<float> render_radiance(const Context &context, const SceneFile &scene,
+                                   const std::vector<std::uint32_t> &sample_counts) {
+    describe_scene(context, scene, [](double) { return true; });
+    context.require(pt_set_render(context.get(), &scene.render));
+    for (const std::uint32_t sample_count : sample_counts) {
+        auto info = sized<pt_accumulate_info>();
+        info.sample_count = sample_count;
+        context.require(pt_accumulate(context.get(), &info));
+    }
+    const pt_render &image = scene.render;
+    std::vector<float> radiance(std::size_t{3} * image.width * image.height);
+    context.read(0, image.width, image.height, PT_QUANTITY_RADIANCE, radiance.data());
+    return radiance;
 }
 
 bool SelftestReport::passed() const {

@@ -58,7 +58,6 @@ struct Hit {
 };
 
 struct Material {
-    vec3 emission;
     vec3 diffuse;
     vec3 specular;
     float glossiness;
@@ -68,16 +67,15 @@ struct Material {
 Material material_of(uint surface)
 {
     vec4 specular = specular_of(surface);
-    return Material(may_emit(surface) ? emission_of(surface).rgb : vec3(0.0), PI * diffuse_of(surface).rgb,
-                    specular.rgb * (2.0 * PI / (specular.a + 2.0)), specular.a);
+    return Material(PI * diffuse_of(surface).rgb, specular.rgb * (2.0 * PI / (specular.a + 2.0)), specular.a);
 }
 
-// Where a ray meets a sphere (centre, radius): |origin + distance direction - centre|^2 = radius^2.
+// Where a ray meets a sphere (center, radius): |origin + distance direction - center|^2 = radius^2.
 float distance_to_sphere(Ray ray, vec4 sphere)
 {
-    vec3 to_centre = sphere.xyz - ray.origin;
-    float along = dot(to_centre, ray.direction);
-    float across = dot(to_centre, to_centre) - along * along;
+    vec3 to_center = sphere.xyz - ray.origin;
+    float along = dot(to_center, ray.direction);
+    float across = dot(to_center, to_center) - along * along;
     float half_chord = sqrt(max(sphere.w * sphere.w - across, 0.0));
     float first = along - half_chord;
     float distance = first > NEAR ? first : along + half_chord;

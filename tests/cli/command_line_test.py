@@ -27,7 +27,7 @@ class Usage(CommandLineTest):
     def test_misspelt_names_get_a_suggestion(self):
         render = ["render", COURSEWORK, "-o", "a.png"]
         for arguments, error in ((["scene"], 'command "scene", known: render, tonemap, compare, merge, denoise, '
-                                             'selftest, schema, devices'),
+                                             'selftest, course, schema, devices'),
                                  (["a.json"], 'unknown command "a.json", did you mean "pt render a.json"? (see pt --help)'),
                                  (["a.ptfilm"], 'did you mean "pt merge a.ptfilm"?'),
                                  (["a.exr"], 'did you mean "pt tonemap a.exr"?'),

@@ -1,58 +1,96 @@
-"""Tests the steps of shaders/COURSEWORK.md. Each diff must apply, and its picture must agree with other renderers."""
+"""Tests the course of shaders/COURSEWORK.md: each difference applies to the step before, its kernel is right by `pt course`, and
+planted mistakes are found by name."""
 
 import os
-import shutil
 import subprocess
 
-import numpy
-import pt
+from command_line import PT, SCENES, CommandLineTest
 
-from command_line import PT, SCENES, CommandLineTest, read_exr_channels
+COURSE = os.path.join(SCENES, "..", "..", "shaders", "coursework")
+DIFFERENCES = ("1-emission", "2-directions", "3-throughput", "4-numbers", "5-filter", "6a-cosine", "6b-lamps", "7-motion")
+# Steps that a difference makes right.
+STEPS = {"6b-lamps": ("6b", "6c")}
 
-ROOT = os.path.join(SCENES, "..", "..")
-REFERENCES = os.path.join(ROOT, "tests", "reference")
-STEPS = (("1-light", "coursework", 1, "coursework_L1"), ("2-directions", "coursework-diffuse", 2, "coursework-diffuse_L2"),
-         ("3-paths", "coursework-diffuse", 6, "coursework-diffuse_L6"), ("4-gloss", "coursework", 6, "coursework_L6"),
-         ("5-points", "coursework", 6, "coursework_L6"), ("6-lamps", "coursework", 6, "coursework_L6"),
-         ("7-motion", "coursework-motion", 2, None))
-MOST_CHANGE = 0.15  # of all light; every step changes more
-
-
-def pixels_of(path):
-    channels = read_exr_channels(path)
-    image = numpy.stack([numpy.array(channels[name]) for name in "RGB"], axis=2)
-    side = len(image) // 64
-    return image.reshape(64, side, 128, side, 3).mean(axis=(1, 3))
+# The difference, the right code, the wrong code, and the mistake's name in the verdict.
+MISTAKES = (
+    ("1-emission", "{ return material.emission; }", "{ return pow(material.emission, vec3(1.0 / 2.2)); }", "gamma twice"),
+    ("2-directions", "return dot(direction, normal) < 0.0 ? -direction : direction;",
+     "return vec3(direction.xy, abs(direction.z));", "abs(z)"),
+    ("2-directions", "length <= MAX_PATH_LENGTH", "length < MAX_PATH_LENGTH", "paths one vertex short"),
+    ("2-directions", "const float NEAR = 0.001", "const float NEAR = 0.0", "self-intersection"),
+    ("3-throughput", "float density = 1.0 / (2.0 * PI);", "float density = 1.0;", "missing 2 pi"),
+    ("3-throughput", "float density = 1.0 / (2.0 * PI);", "float density = 1.0 / (1.98 * PI);", "1.98 pi"),
+    ("3-throughput", "(n + 2.0) / (2.0 * PI) * lobe", "(n + 1.0) / (2.0 * PI) * lobe", "n + 1"),
+    ("3-throughput", "return max(dot(normal, direction), 0.0);", "return pow(max(dot(normal, direction), 0.0), 2.0);",
+     "cosine twice"),
+    ("3-throughput", "throughput *= ", "throughput = ", "throughput of the last surface alone"),
+    ("3-throughput", "radiance += throughput * emitted", "radiance += emitted", "no throughput"),
+    ("4-numbers", "SAMPLER == SAMPLER_HALTON ? 0.0 : unit_number(of_pixel)", "0.0", "pixel shift missing"),
+    ("4-numbers", "digit = 1.0 / float(base)", "digit = float(1u / base)", "integer division"),
+    ("4-numbers", "PRIMES[dimension - 1u]", "PRIMES[0]", "equal numbers in all dimensions"),
+    ("5-filter", "image_place(frame.camera, pixel, place)", "image_place(frame.camera, pixel, place + 0.5)", "half a pixel off"),
+    ("6a-cosine", "max(cosine, 1.0e-6) / PI", "max(cosine, 1.0e-6) / (2.0 * PI)", "2 pi instead of pi"),
+    ("6b-lamps", "if (!ASKS_LAMPS || length == 1u || hit.surface >= LAMP_COUNT)\n", "", "emission counted twice"),
+    ("6b-lamps", "surface == lamp)", "surface < 99u)", "no shadows"),
+    ("7-motion", "time = next_number();", "time = 0.5;", "one time for all samples"),
+)
+# An error that no pattern predicts.
+UNKNOWN = ("3-throughput", "material.diffuse / PI +", "material.diffuse.bgr / 2.2 +")
 
 
 class Coursework(CommandLineTest):
     program = PT
 
-    def render(self, scene, length, *more):
-        self.expect(0, "render", os.path.join(SCENES, f"{scene}.json"), "--size", "128x64", "--max-path-length", str(length), "-q", "-o",
-                    "a.exr", *more)
-        return pixels_of(self.path("a.exr"))
+    def setUp(self):
+        super().setUp()
+        self.expect(0, "course", "kernels")
 
-    def test_steps(self):
-        shutil.copytree(os.path.join(ROOT, "shaders"), self.path("kernels"))
-        course = os.path.join(ROOT, "shaders", "coursework")
-        shutil.copy(os.path.join(course, "start.comp"), self.path("kernels/pathtrace.comp"))
-        images = {}
-        for step, scene, length, reference in STEPS:
-            subprocess.run(["patch", "-s", "--fuzz=0", "-p1", "-d", self.path("kernels"), "-i", os.path.join(course, f"{step}.diff")],
-                           check=True)
-            images[step] = self.render(scene, length, "--spp", "64", "--shader-dir", "kernels")
-            converged = (pixels_of(os.path.join(REFERENCES, f"{reference}.exr")) if reference
-                         else self.render(scene, length, "--spp", "256"))
+    def each_kernel(self, apply):
+        """Yields each difference after it was applied to the kernel."""
+        for difference in DIFFERENCES:
+            subprocess.run(["patch", "-s", "--fuzz=0", "-p1", "-d", self.path("kernels"), "-i",
+                            os.path.join(COURSE, f"{difference}.diff")], check=True)
+            apply(difference)
+
+    def verdict(self, step):
+        done = subprocess.run([PT, "course", "--check", step, "--shader-dir", self.path("kernels")], capture_output=True, text=True)
+        return done.returncode, done.stdout.splitlines()[-1:], done.stderr
+
+    def check(self, difference):
+        right = self.read("kernels/pathtrace.comp")
+        for step in STEPS.get(difference, [difference.partition("-")[0]]):
             with self.subTest(step=step):
-                comparison = pt.compare(images[step], converged)
-                self.assertNotEqual(comparison.light, pt.Light.DIFFERENT, comparison)
-                self.assertLess(comparison.smallest_change, MOST_CHANGE)
-            if step == "4-gloss":
-                done = subprocess.run([PT, "selftest", "--directions", "--shader-dir", self.path("kernels")], capture_output=True,
-                                      text=True)
-                verdicts = [line.split()[0] for line in done.stdout.splitlines()
-                            if "hemisphere, uniform" in line or "by cosine: cosine" in line]
-                self.assertEqual(verdicts, ["pass"] * 7)
-        shorter = pixels_of(os.path.join(REFERENCES, "coursework-diffuse_L2.exr"))
-        self.assertEqual(pt.compare(images["3-paths"], shorter).light, pt.Light.DIFFERENT)
+                self.assertEqual(self.verdict(step), (0, ["right"], ""))
+        for _, code, wrong, name in (mistake for mistake in (*MISTAKES, (*UNKNOWN, "")) if mistake[0] == difference):
+            with self.subTest(mistake=name or "unknown"):
+                self.assertEqual(right.count(code), 1, code)
+                self.write("kernels/pathtrace.comp", right.replace(code, wrong))
+                code, lines, errors = self.verdict(difference.partition("-")[0])
+                self.assertEqual((code, errors), (8, ""))
+                self.assertRegex(lines[0], f"wrong: {name}\\. ".replace("(z)", r"\(z\)").replace("+", r"\+") if name
+                                 else "^wrong: no usual mistake fits$")
+        self.write("kernels/pathtrace.comp", right)
+
+    def test_steps_and_mistakes(self):
+        self.assertGreaterEqual(len({name for *_, name in MISTAKES}), 12)
+        self.each_kernel(self.check)
+
+    def test_the_start_is_in_its_folder_without_answers(self):
+        with open(os.path.join(COURSE, "start.comp"), encoding="utf-8") as file:
+            self.assertEqual(self.read("kernels/pathtrace.comp"), file.read())
+        names = os.listdir(self.path("kernels"))
+        self.assertEqual([name for name in names if name.endswith(".diff")] + [name for name in ("phong.glsl", "lights.glsl")
+                                                                              if name in names], [])
+        self.expect(6, "course", "kernels", error="kernels: is not empty")
+        self.expect(2, "course", "--check", "8", "--shader-dir", "kernels", error="--check 8: the steps are 1, 2, 3, ")
+        self.expect(2, "course", error="DIR or --check is required")
+
+    def test_grade_gives_points_for_right_steps(self):
+        self.each_kernel(lambda difference: None)
+        right = self.read("kernels/pathtrace.comp")
+        self.write("kernels/pathtrace.comp", right.replace("time = next_number();", "time = 0.0;"))
+        done = subprocess.run([PT, "course", "--grade", self.path("kernels")], capture_output=True, text=True, check=True)
+        rows = [line.split() for line in done.stdout.splitlines()]
+        self.assertEqual([row[0] for row in rows if row[-1] == "right"], ["1", "2", "3", "4", "5", "6a", "6b", "6c"])
+        self.assertIn("wrong: nothing moves.", done.stdout)
+        self.assertEqual(rows[-1], ["all", "94/100"])

@@ -4,7 +4,8 @@ import pathlib
 import re
 import sys
 
-ORDERS = {"cli": ("base", "image", "film", "scene", "render", "merge", "denoise", "tonemap", "compare", "selftest"),
+ORDERS = {"cli": ("base", "image", "film", "scene", "render", "merge", "denoise", "tonemap", "compare", "selftest",
+                  "course"),
           "lib": ("platform", "base", "scene", "tree", "film", "denoise", "display", "vulkan", "glsl_module", "kernel", "render", "api",
                  "scene_file")}
 

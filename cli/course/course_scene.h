@@ -1,0 +1,84 @@
+// Scenes of the course's checks, with exact values for right kernels and for wrong ones.
+#pragma once
+
+#include "cli/course/verdict.h"
+
+#include <array>
+#include <functional>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+namespace cli {
+
+// ---- Five lamps above a tilted floor --------------------------------------------------------------------------------
+
+// Seen from above by parallel rays. The lamps are as far as the sky. One stands above, in red; two beside it are green,
+// the two opposite ones blue.
+SceneFile lamps_above_a_floor(std::uint32_t side, std::uint32_t sample_count);
+
+using Channels = std::array<double, 3>;
+
+// How a kernel chooses directions from uniform ones on the sphere.
+using Turn = std::function<glm::dvec3(const glm::dvec3 &direction, const glm::dvec3 &normal)>;
+using Weight = std::function<double(double cosine)>; // of a direction; 0 below the surface
+
+glm::dvec3 to_the_normals_side(const glm::dvec3 &direction, const glm::dvec3 &normal);
+glm::dvec3 absolute_z(const glm::dvec3 &direction, const glm::dvec3 &normal);
+glm::dvec3 unturned(const glm::dvec3 &direction, const glm::dvec3 &normal);
+
+// Means of the picture, by quadrature over the sphere.
+Channels lamplight(const Turn &turn, const Weight &weight);
+
+// The same for directions of equal numbers in both dimensions: heights from `first` to `last`, and one full turn.
+Channels lamplight_of_equal_numbers(double first, double last);
+
+// Form factors of spheres above a plane: sin^2 a cos (Snyder 1996).
+Channels right_lamplight();
+
+// ---- A floor under the sky ------------------------------------------------------------------------------------------
+
+// The sky is yellow. The tilted floor reflects red diffusely and green in a lobe. It emits and reflects blue, so blue
+// is its own light, 1. One sample for each pixel.
+SceneFile floor_under_the_sky();
+inline constexpr double floor_glossiness = 8.0;
+
+// ---- A ball around a lamp -------------------------------------------------------------------------------------------
+
+// Values of selftest's lamp_in_a_ball(): vertices after the first have the share `hit` of their light from the lamp,
+// and `missed` from the wall, of which `kept` goes on.
+double light_in_a_ball(double hit, double missed, int vertices = 3);
+double ball_cosine(); // of the half angle of the lamp's cone
+
+// A ball of emission 1 that reflects half, seen from its inside.
+SceneFile glowing_ball(std::uint32_t max_path_length);
+
+// ---- A lamp behind a ball -------------------------------------------------------------------------------------------
+
+// The floor in view is in full shadow.
+SceneFile shadow();
+
+// ---- A disc ---------------------------------------------------------------------------------------------------------
+
+// A lamp seen by parallel rays, 32 pixels wide.
+SceneFile disc(bool moves);
+inline constexpr double disc_radius = 10.3; // pixels
+inline constexpr Channels disc_emission{4.0, 0.5, 0.1};
+
+struct DiscSample {
+    glm::dvec2 place; // in the pixel
+    double time;
+};
+
+// Place of the disc, softness and slant of its edge, and spread along its motion.
+std::vector<Measured> disc_values(std::span<const double> coverage, double bound_factor);
+std::vector<Measured> disc_values(const Picture &picture);
+std::vector<Range> disc_values(bool moves, const std::vector<DiscSample> &samples);
+
+// ---- Scenes of the course -------------------------------------------------------------------------------------------
+
+// name: of a file in cli/scenes. 64x32 pixels.
+SceneFile course_scene(const std::string &name, std::uint32_t sample_count, std::uint32_t max_path_length,
+                       std::uint32_t estimator);
+
+} // namespace cli

@@ -1,0 +1,25 @@
+// The steps of shaders/COURSEWORK.md: what is measured of each, the right values, and those of usual mistakes.
+#pragma once
+
+#include "cli/course/verdict.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace cli {
+
+struct CourseStep {
+    std::string name; // the part of the exercise, such as "6a"
+    std::string title;
+    unsigned points;
+    std::function<std::vector<Measured>(CourseKernels &)> measure;
+    std::vector<Pattern> patterns;
+    std::function<SceneFile()> same_light; // scene for the comparison with the library's kernel, or empty
+};
+
+const std::vector<CourseStep> &course_steps();
+
+CourseVerdict check_step(CourseKernels &kernels, const CourseStep &step);
+
+} // namespace cli

@@ -1,0 +1,57 @@
+// Pictures of a student's kernel as measurements.
+#pragma once
+
+#include "cli/base/context.h"
+#include "cli/compare/light.h"
+#include "cli/scene/scene.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace cli {
+
+struct Measured {
+    std::string name;
+    double value;
+    double bound; // A right kernel's value deviates by less, except once in ten million.
+};
+
+struct Picture {
+    std::vector<float> radiance; // three values a pixel
+    std::uint32_t width;
+    std::uint32_t height;
+    double rejected; // samples that were NaN, infinite or negative
+
+    double at(std::uint32_t x, std::uint32_t y, std::size_t channel) const;
+    Measured mean(const std::string &name, std::size_t channel) const;
+    double deviation(std::size_t channel) const; // standard deviation over the pixels
+};
+
+class CourseKernels {
+public:
+    CourseKernels(std::string shader_dir, std::string device);
+
+    // Renders the scene's number of samples.
+    Picture edited(const SceneFile &scene) const { return render(edited_, scene); }
+
+    // Samples that the edited kernel needs for one sample of the library's, at the same relative square error.
+    Measured samples_needed(const std::string &name, SceneFile scene);
+
+    // Whether both kernels show the same light, by the sequential test of `pt compare`.
+    LightVerdict compare(const SceneFile &scene);
+
+private:
+    static Picture render(const Context &context, const SceneFile &scene);
+    const Context &built_in();
+
+    std::string device_;
+    Context edited_;
+    std::optional<Context> built_in_;
+};
+
+} // namespace cli

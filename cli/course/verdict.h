@@ -1,0 +1,52 @@
+// A verdict is the pattern of values that fits measurements best: the right one, or a usual mistake's.
+#pragma once
+
+#include "cli/course/measured.h"
+
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace cli {
+
+struct Range {
+    double least;
+    double most;
+};
+
+constexpr Range exactly(double value) {
+    return {value, value};
+}
+
+// For values by quadrature.
+constexpr Range nearly(double value) {
+    return {0.997 * value, 1.003 * value};
+}
+
+inline constexpr Range any_value{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+
+struct Pattern {
+    std::string name; // empty for a right step
+    std::string hint;
+    std::vector<Range> values; // one for each measurement
+
+    bool is_right() const { return name.empty(); }
+};
+
+struct CourseVerdict {
+    std::vector<Measured> measured;
+    std::vector<Range> expected; // of the right pattern that is nearest
+    const Pattern *fitting;      // nullptr if no pattern fits
+    std::string other_light;     // summary of a test for equal light that failed, otherwise empty
+
+    bool is_right() const { return fitting != nullptr && fitting->is_right() && other_light.empty(); }
+};
+
+// Returns the largest deviation from the pattern in units of the measurements' bounds.
+double misfit(std::span<const Measured> measured, const Pattern &pattern);
+
+// patterns must outlive the verdict and have a right one.
+CourseVerdict judge(std::vector<Measured> measured, std::span<const Pattern> patterns);
+
+} // namespace cli
