@@ -8,12 +8,11 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGES = [path for folder in (".", "cli", "lib", "shaders", "tests") for path in (ROOT / folder).glob("*.md")]
 PAGES += [*(ROOT / "tests").glob("*/**/*.md"), *(ROOT / "lib").glob("*/*.md")]
 CURRENT = [page for page in PAGES if page.name not in ("CHANGELOG.md", "NOTEBOOK.md")]
-CODE = re.compile(r"\.(h|c|cpp|glsl|comp|py|json|csv|cmake|sh)$|^CMakeLists\.txt$")
+CODE = re.compile(r"\.(h|c|cpp|glsl|comp|diff|py|json|csv|cmake|sh)$|^CMakeLists\.txt$")
 
 # The largest numbers of words: of each page, and of all pages except the changes.
 MOST_WORDS = {"README.md": 1230, "CONTRIBUTING.md": 1400, "cli/README.md": 4850, "shaders/README.md": 6320,
-              "shaders/COURSEWORK.md": 1600,
-              "tests/bench/README.md": 1500}
+              "shaders/COURSEWORK.md": 1600, "tests/bench/README.md": 1500}
 MOST_WORDS_IN_ALL = 24_668
 
 # Each row has a pattern for pages, a file, and a pattern for this file. The groups of both patterns must be equal.
