@@ -1,4 +1,3 @@
-// The C functions: they check pointers and struct sizes, and turn exceptions into results.
 #include "lib/api/context.h"
 #include "lib/api/guard.h"
 #include "lib/base/error.h"

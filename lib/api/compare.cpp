@@ -1,4 +1,3 @@
-// The C functions of comparisons, like those in api.cpp.
 #include <pt/compare.h>
 
 #include "lib/api/context.h"
@@ -52,7 +51,7 @@ pt_result pt_compare(const pt_compare_info *info, pt_comparison *comparison, pt_
     return pt::guard(pt::thread_last_error, [&] {
         pt::require_not_null(count, "count");
         if (comparison || regions)
-            pt::struct_size_of(comparison, "comparison"); // before the work
+            pt::struct_size_of(comparison, "comparison");
         const pt_compare_info valid = pt::validated_compare(info);
         if (!comparison && !regions) {
             *count = pt::region_count_of(valid);

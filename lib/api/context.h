@@ -1,4 +1,3 @@
-// A pt_context, and the check of pt_create_info.
 #pragma once
 
 #include "lib/api/guard.h"
@@ -19,7 +18,6 @@ namespace pt {
 
 extern thread_local LastError thread_last_error;
 
-// Throws PT_ERROR_INVALID_ARGUMENT with a line per broken rule.
 CreateSettings validated_create(const pt_create_info &info);
 
 } // namespace pt

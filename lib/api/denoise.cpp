@@ -1,4 +1,3 @@
-// The C functions of denoising, like those in api.cpp.
 #include <pt/denoise.h>
 
 #include "lib/api/context.h"
@@ -46,7 +45,7 @@ ErrorEstimate denoise(const pt_denoise_info &info) {
 
 pt_result pt_denoise(const pt_denoise_info *info, pt_error_estimate *error) {
     return pt::guard(pt::thread_last_error, [&] {
-        pt::struct_size_of(error, "error"); // refuses a wrong struct before the work
+        pt::struct_size_of(error, "error");
         pt::copy_out(pt::stated(pt::denoise(pt::validated_denoise(info))), error, "error");
     });
 }

@@ -1,4 +1,3 @@
-// The C functions of films without a context, like those in api.cpp.
 #include "lib/film/film.h"
 
 #include "lib/api/context.h"
@@ -54,7 +53,7 @@ void write_nothing(const Image &image) {
 
 void write_image(const Film &film, const Image &image) {
     const ImageLayout &layout = image.layout;
-    Rectangle pixels = layout.pixels; // becomes the same rectangle in coordinates of the image
+    Rectangle pixels = layout.pixels;
     pixels.x += film.bounds().x;
     pixels.y += film.bounds().y;
     write_nothing(image);
@@ -124,7 +123,6 @@ pt_film_info info_of(const Film &film) {
             .device = facts.device.c_str()};
 }
 
-// Handle is pt_film or const pt_film.
 template <typename Handle, typename Call>
 pt_result guard_film(Handle *film, Call &&call) noexcept {
     return guard(thread_last_error, [&] {
@@ -222,7 +220,7 @@ pt_result pt_get_film_stats(const pt_film *film, pt_stats *stats) {
 
 pt_result pt_get_film_error_estimate(const pt_film *film, pt_error_estimate *error) {
     return pt::guard_film(film, [&](const pt::Film &opened) {
-        pt::struct_size_of(error, "error"); // refuses a wrong struct before the work
+        pt::struct_size_of(error, "error");
         pt::copy_out(pt::stated(opened.error()), error, "error");
     });
 }

@@ -1,4 +1,3 @@
-// Turns exceptions into a pt_result, a message and broken rules.
 #pragma once
 
 #include "lib/base/error.h"
@@ -32,7 +31,6 @@ public:
 
     const char *c_str() const noexcept { return shown_ ? shown_ : text_.c_str(); }
 
-    // NULL if the message concerns no rule.
     const Violations *broken_rules() const noexcept { return broken_rules_.get(); }
 
 private:

@@ -15,7 +15,7 @@ public:
     const char *take() noexcept {
         if (const char *reason = not_of_this_process())
             return reason;
-        std::thread::id user; // of no thread
+        std::thread::id user;
         if (user_.compare_exchange_strong(user, std::this_thread::get_id(), std::memory_order_acquire))
             return nullptr;
         return user == std::this_thread::get_id() ? "called from a callback of its own context"

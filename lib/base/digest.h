@@ -31,7 +31,6 @@ public:
     // The XXH3 of the concatenated bytes, if only add_bytes was called.
     std::uint64_t checksum() const;
 
-    // Returns 32 hexadecimal digits.
     std::string text() const;
 
 private:

@@ -1,4 +1,3 @@
-// The caller's log function.
 #pragma once
 
 #include "lib/platform/printable.h"
@@ -30,7 +29,6 @@ struct Log {
         }
     }
 
-    // Calls message() only if there is a log function.
     template <typename Message>
     void info(Message &&message) const noexcept {
         if (!function)

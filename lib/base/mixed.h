@@ -1,4 +1,3 @@
-// Mixes 64-bit seeds.
 #pragma once
 
 #include <cstdint>

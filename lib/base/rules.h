@@ -1,4 +1,3 @@
-// Checks numbers of the caller.
 #pragma once
 
 #include "lib/base/error.h"
@@ -80,7 +79,7 @@ inline const char *share_rule(double value) {
 
 // The field of a value, or for a product its first field and the rest of the message: {"width", "* height"}.
 struct Member {
-    Member(const char *field, const char *others = "") : name(field), with(others) {} // implicit
+    Member(const char *field, const char *others = "") : name(field), with(others) {}
 
     const char *name;
     const char *with;

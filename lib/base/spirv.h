@@ -7,7 +7,6 @@
 
 namespace pt::spirv {
 
-// Section 3.32, "Instructions".
 enum Opcode : std::uint32_t {
     OpName = 5,
     OpMemberName = 6,
@@ -72,7 +71,6 @@ constexpr std::uint32_t first_word(Opcode opcode, std::uint32_t word_count) {
     return word_count << 16U | opcode;
 }
 
-// Thrown for code that the library cannot interpret.
 struct Unknown {};
 
 // Calls use(instruction, offset) for each instruction from offset on, until use returns false.

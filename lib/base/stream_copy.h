@@ -6,7 +6,6 @@
 
 namespace pt {
 
-// to must have room for from.size() bytes.
 void stream_copy(std::span<const std::byte> from, std::byte *to);
 
 } // namespace pt

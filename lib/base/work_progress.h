@@ -15,7 +15,6 @@ class WorkProgress {
 public:
     WorkProgress() = default;
 
-    // function may be NULL.
     WorkProgress(pt_progress_fn function, void *user) : function_(function), user_(user) {}
 
     WorkProgress(const WorkProgress &) = delete;

@@ -8,7 +8,7 @@
 namespace pt {
 
 struct Tiles {
-    static constexpr std::size_t width = 8; // pixels
+    static constexpr std::size_t width = 8;
 
     explicit Tiles(const Halves &halves) :
         columns((halves.width + width - 1) / width),
@@ -17,7 +17,7 @@ struct Tiles {
 
     std::size_t columns;
     std::size_t rows;
-    std::vector<double> numbers; // row by row
+    std::vector<double> numbers;
 };
 
 // Averages each tile with its neighbors by the weights 1/4, 1/2, 1/4 along both axes. Tiles at the edge are repeated

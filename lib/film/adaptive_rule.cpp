@@ -28,7 +28,6 @@ double bound_of(std::int32_t round) {
     return power_of_halves(round);
 }
 
-// Returns the last round whose bound is at least `gain`.
 std::int32_t last_content_round(double gain) {
     int exponent = 0;
     const double fraction = std::frexp(gain, &exponent); // in [1/2, 1)
@@ -238,7 +237,6 @@ std::optional<TileStep> AdaptivePlan::next_on_target(const TileSamples &samples,
     return to_next_level(samples, std::move(tiles));
 }
 
-// Returns the tiles that are between two powers of two or have no samples.
 std::vector<std::uint32_t> AdaptivePlan::unfinished_tiles(const TileSamples &samples) const {
     return tiles_where(samples,
                        [this](std::uint32_t, std::uint64_t has) { return !is_level(has) && has < counts_.limit; });

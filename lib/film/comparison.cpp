@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t colors = 3;
 constexpr double not_found = std::numeric_limits<double>::infinity();
 
-constexpr std::uint32_t least_side = 16;    // pixels
+constexpr std::uint32_t least_side = 16;
 constexpr std::uint32_t reported_side = 32; // side of the regions of smallest_tile_change
 
 // Differences up to this fraction of the light count as rounding errors. A lobe 2^x with x >= -100 has an error of up
@@ -32,12 +32,12 @@ constexpr double sign_constant = 3.178;
 constexpr double quantile_99 = 2.326;
 
 struct ChannelSums {
-    double light = 0.0; // light of the second image
+    double light = 0.0;
     double light_squares = 0.0;
     double difference = 0.0; // first minus second
-    double squares = 0.0;    // sum of squared differences
+    double squares = 0.0;
     double cubes = 0.0;
-    double first_lit = 0.0; // lit pixels of the first image
+    double first_lit = 0.0;
     double second_lit = 0.0;
 
     void add_pixel(double first, double second) {
@@ -252,7 +252,6 @@ private:
     double deviation_;
 };
 
-// `test_count` tests share the rate.
 pt_compared_region compared(const Region &region, const ChannelEvents &events, const Knowledge &knowledge, double rate,
                             double test_count) {
     pt_compared_region result{};

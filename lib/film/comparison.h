@@ -1,4 +1,3 @@
-// Tests whether two images show the same light (shaders/README.md, section 11).
 #pragma once
 
 #include <pt/compare.h>
@@ -14,7 +13,6 @@ struct Comparison {
     std::vector<pt_compared_region> regions; // in pt_compare's order
 };
 
-// `info` must be valid and must not rely on defaults.
 Comparison compare_light(const pt_compare_info &info);
 
 std::uint32_t region_count_of(const pt_compare_info &info);

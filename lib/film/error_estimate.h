@@ -27,7 +27,6 @@ inline constexpr std::uint32_t min_estimate_samples = 16;
 // 95% of a normal distribution are within this many standard deviations.
 inline constexpr double normal_95 = 1.96;
 
-// An estimate from fewer equal pixels is uncertain. Calibrated.
 inline constexpr double few_pixels = 4.0;
 
 // Both take an effective number of pixels. share_added() is the fraction to add to an estimate. spread_of_pixels() is
@@ -68,7 +67,6 @@ public:
     // The order of calls changes the last bits of the result.
     void add(const TileErrors &tiles);
 
-    // Requires at least one add().
     ErrorEstimate result() const;
 
     std::uint64_t rejected() const { return all_.rejected; }

@@ -127,7 +127,7 @@ void Film::add(Film other) {
     cut_along(theirs);
     std::vector<FilmTile> sum = list();
     const TileMap own(sum);
-    std::vector<std::pair<std::size_t, std::size_t>> overlaps; // this film's tile, the other's
+    std::vector<std::pair<std::size_t, std::size_t>> overlaps;
     for (std::size_t i = 0; i < tiles_.size(); ++i)
         if (const TileMap::Span *const span = theirs.find(tiles_[i].pixels.x, tiles_[i].pixels.y)) {
             overlaps.emplace_back(i, span->tile);

@@ -25,7 +25,6 @@ public:
 
     const FilmFacts &facts() const { return facts_; }
 
-    // Its tiles are in canonical form.
     const FilmHeader &header() const { return header_; }
 
     const Rectangle &bounds() const { return bounds_; }
@@ -34,12 +33,10 @@ public:
     // After an exception this film is unchanged.
     void add(Film other);
 
-    // `bytes` must have the size of header()'s layout.
     void write(std::span<std::byte> bytes) const;
 
     void stream(const FilmStream::Receive &receive) const;
 
-    // Least number of a pixel within the bounds.
     std::uint64_t sample_count() const;
     std::uint64_t max_sample_count() const;
     std::uint64_t total_samples() const;

@@ -1,4 +1,3 @@
-// Reads and writes the bytes of a film (FORMAT.md).
 #pragma once
 
 #include "lib/base/digest.h"
@@ -20,7 +19,6 @@ public:
 
     std::uint64_t size_bytes() const { return size_bytes_; }
 
-    // Offset of the first pixel's word. Parts without samples are not stored.
     std::uint64_t plane_offset(std::size_t tile, std::uint32_t part, std::size_t plane) const;
     bool has_part(std::size_t tile, std::uint32_t part) const { return tiles_[tile].counts[part] > 0; }
     const PartCounts &counts(std::size_t tile) const { return tiles_[tile].counts; }
@@ -36,7 +34,6 @@ private:
     std::uint64_t size_bytes_;
 };
 
-// Throws PT_ERROR_INVALID_ARGUMENT if the caller's memory is too small.
 void require_room(std::uint64_t size_bytes, std::uint64_t needed);
 
 // write() is needed for all pixels of all tiles, then end().

@@ -15,7 +15,6 @@ namespace pt {
 
 namespace {
 
-// All films have smaller exponents.
 constexpr int most_unit_exponent = 300;
 
 std::optional<std::string> value_in(const FilmIdentity &identity, const std::string &name) {

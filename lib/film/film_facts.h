@@ -8,7 +8,7 @@
 namespace pt {
 
 struct FilmFacts {
-    std::uint32_t width; // width of the whole image
+    std::uint32_t width;
     std::uint32_t height;
     std::uint32_t max_path_length;
     std::uint64_t seed;
@@ -28,7 +28,6 @@ void require_same(const FilmIdentity &film, const FilmIdentity &other, const std
 // be empty.
 void require_apart(const SampleSet &added, const SampleSet &present, const std::string &where);
 
-// Throws PT_ERROR_INCOMPATIBLE.
 [[noreturn]] void refuse_film(const std::string &member, const std::string &value, const std::string &rule);
 
 } // namespace pt

@@ -23,7 +23,6 @@ constexpr std::string_view samples_name = "samples";
 constexpr std::string_view round_name = "round";
 constexpr std::string_view lamps_name = "lamps";
 
-// Double precision needs fewer rounds for any error.
 constexpr std::uint64_t max_round = 10'000;
 
 // Several times the present number. A parsed line takes many times its length, so this limits memory.
@@ -44,7 +43,6 @@ std::string_view take_line(std::string_view &text) {
     return line;
 }
 
-// Reads numbers with blanks between them. Returns no value for other text.
 template <std::size_t Count>
 std::optional<std::array<std::uint64_t, Count>> numbers(std::string_view text) {
     std::array<std::uint64_t, Count> values{};

@@ -36,14 +36,12 @@ struct Rectangle {
     bool operator==(const Rectangle &) const = default;
 };
 
-// The intersection. If it is empty, width or height is 0.
 inline Rectangle common(const Rectangle &a, const Rectangle &b) {
     const std::uint32_t x = std::max(a.x, b.x);
     const std::uint32_t y = std::max(a.y, b.y);
     return {x, y, std::max(std::min(a.right(), b.right()), x) - x, std::max(std::min(a.bottom(), b.bottom()), y) - y};
 }
 
-// A rectangle whose pixels have the same samples.
 struct FilmTile {
     Rectangle pixels;
     SampleSet samples;
@@ -51,7 +49,6 @@ struct FilmTile {
     bool operator==(const FilmTile &) const = default;
 };
 
-// Progress towards a target error (adaptive_rule.h).
 struct AdaptiveRound {
     static constexpr std::int32_t none = std::numeric_limits<std::int32_t>::min();
 
@@ -67,7 +64,7 @@ inline AdaptiveRound later_of(const AdaptiveRound &a, const AdaptiveRound &b) {
 
 // A square of lamp_square x lamp_square pixels with lamps smaller than a pixel.
 struct LampSquare {
-    std::uint32_t x; // multiples of lamp_square
+    std::uint32_t x;
     std::uint32_t y;
     std::uint32_t samples; // per pixel; hits the smallest lamp
 

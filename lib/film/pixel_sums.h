@@ -17,7 +17,7 @@ namespace pt {
 template <typename Word>
 struct PartWords {
     Word *first;
-    std::size_t stride; // between planes
+    std::size_t stride;
 };
 
 void add_words(const PartWords<std::uint32_t> &to, const PartWords<const std::uint32_t> &from,

@@ -44,7 +44,6 @@ public:
 
     SampleRange next_missing(std::uint64_t from) const;
 
-    // The set must not have these samples yet.
     void add(const SampleRange &range);
     void add(const SampleSet &other);
 

@@ -26,7 +26,7 @@ using gpu::squared;
 struct TileValues {
     std::size_t width;
     std::size_t height;
-    double sample_count; // samples per pixel
+    double sample_count;
     std::uint64_t rejected{};
     // Rows have tile_size values even in narrower tiles.
     std::array<std::array<PixelValue, 3>, tile_size * tile_size> pixels{};
@@ -47,7 +47,6 @@ struct PixelErrors {
 
 PixelErrors pixel_errors(const TileValues &tile);
 
-// Sums of squared errors, and sums for their variance.
 struct ErrorSquares {
     double sum = 0.0;              // infinite if unknown
     double of_pixels = 0.0;        // sum of each pixel's sum squared

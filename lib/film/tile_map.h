@@ -12,14 +12,12 @@ namespace pt {
 
 class TileMap {
 public:
-    // Columns [first, end) of a band that are in one tile.
     struct Span {
         std::uint32_t first;
         std::uint32_t end;
         std::size_t tile;
     };
 
-    // Rows [first, end) that cross the same tiles.
     struct Band {
         std::uint32_t first;
         std::uint32_t end;
@@ -35,7 +33,6 @@ public:
     // no larger than the film's sums.
     explicit TileMap(const std::vector<FilmTile> &tiles);
 
-    // The bands from top to bottom. Rows without tiles are in no band.
     const std::vector<Band> &bands() const { return bands_; }
 
     const Span *find(std::uint32_t x, std::uint32_t y) const;

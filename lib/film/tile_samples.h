@@ -25,15 +25,13 @@ public:
     std::uint32_t set_of(std::size_t tile) const { return even() ? 0 : set_of_[tile]; }
 
     bool empty() const;
-    std::uint64_t least() const; // minimum per pixel
+    std::uint64_t least() const;
     std::uint64_t most() const;
-    std::uint64_t total() const; // sum over pixels
+    std::uint64_t total() const;
 
-    // The tiles must ascend, and must not have these samples yet.
     void add(std::span<const std::uint32_t> tiles, const SampleRange &range);
     void set(std::size_t tile, const SampleSet &samples);
 
-    // first_row must begin a row of tiles.
     TileSamples rows(std::uint32_t first_row, std::uint32_t row_count) const;
 
     void clear() noexcept;

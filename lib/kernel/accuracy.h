@@ -1,4 +1,3 @@
-// Compares a device's elementary functions with double precision.
 #pragma once
 
 #include "lib/vulkan/device.h"
@@ -15,7 +14,7 @@ namespace pt {
 struct ElementaryFunction {
     const char *name;
     double (*exact)(double);
-    double bound; // in ulp, on conforming devices
+    double bound;
     float first, last;
     std::span<const float> places; // points where the function switches formulas
 };

@@ -1,4 +1,3 @@
-// Writes a film's image into a caller's buffer.
 #pragma once
 
 #include "lib/kernel/pixel_results.h"
@@ -11,7 +10,6 @@
 
 namespace pt {
 
-// offset and row_bytes are multiples of 4.
 struct BufferTarget {
     vk::Buffer buffer;
     std::uint64_t offset;

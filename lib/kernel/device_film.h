@@ -56,7 +56,6 @@ public:
     // The film changes only by replace().
     class NewSums {
     public:
-        // Throws PT_ERROR_OUT_OF_DEVICE_MEMORY.
         NewSums(vulkan::Device &device, DeviceFilm &film);
 
         void write(std::uint32_t first_pixel, const PixelSums &sums);

@@ -99,7 +99,7 @@ void FilmSum::add_others(vulkan::SubmissionsUnderWay &at_home, std::uint32_t fir
         for (Fetch &fetch : fetches) {
             const PixelRange pixels = piece(index);
             fetch.under_way.finish_first();
-            if (at_home.count() == slots_.size()) // frees the slot
+            if (at_home.count() == slots_.size())
                 at_home.finish_first();
             stream_copy(fetch.slot(index).host_memory().first(words_bytes(pixels.count)),
                         slots_[slot].host_memory().data());

@@ -23,7 +23,7 @@ void FirstHits::read(const BoundScene &bound, const FirstHitQuery &query, double
     const std::uint64_t most = kernel_.pixels_at_once(total, rays, rays_for(tests_per_submission, bound.scene));
     const std::uint64_t bytes_of_pixel = pixel_bytes(query.format);
     if (!results_ || results_->room() < most * bytes_of_pixel) {
-        results_.reset(); // frees its memory first
+        results_.reset();
         results_.emplace(device_, most * bytes_of_pixel, "first hits");
     }
     const vulkan::DescriptorSet set = kernel_.bind(bound, {results_->pixels(), results_->findings()});

@@ -110,7 +110,6 @@ private:
     const SceneBlocks blocks_;
 };
 
-// Lamps of the sphere tree have the last numbers.
 std::vector<TreeLamp> tree_lamps(const KernelSurfaces &surfaces, const PreparedScene &scene, const Camera &camera) {
     constexpr std::uint32_t no_lamp = 0xffffffff;
     const auto sphere_count = static_cast<std::uint32_t>(scene.scene.spheres.size());

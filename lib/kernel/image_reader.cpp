@@ -52,7 +52,7 @@ std::span<std::byte> ImageReader::map(const ImageQuery &query) {
     const Slot &slot = this->slot(0, pieces.most * pieces.bytes_of_pixel, query.format);
     std::uint32_t lost_pixels = 0;
     if (!mapped_ || mapped_->size() < image_bytes + sizeof lost_pixels) {
-        mapped_.reset(); // frees its memory first
+        mapped_.reset();
         mapped_.emplace(device_, vulkan::BufferUse::HostRead, image_bytes + sizeof lost_pixels, "mapped image");
     }
     device_.submit([&](const vk::raii::CommandBuffer &commands) {

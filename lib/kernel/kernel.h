@@ -1,4 +1,3 @@
-// The path-tracing kernel, specialised to a scene's features, and its buffers.
 #pragma once
 
 #include "lib/kernel/device_film.h"
@@ -39,7 +38,6 @@ public:
     // For other kernels. No work may be running.
     BoundScene bound_scene();
 
-    // Builds pipelines in another cache.
     void build(TracePipelines &pipelines) const;
 
     // Some drivers compile only at the first dispatch. No work may be running.

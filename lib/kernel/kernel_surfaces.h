@@ -1,4 +1,3 @@
-// The surfaces that one camera sees, in the kernel's order.
 #pragma once
 
 #include "lib/scene/camera.h"
@@ -30,7 +29,6 @@ struct KernelSurfaces {
     HiddenCounts hidden;
 };
 
-// See moving_ball.h.
 bool lies_apart(const MovingBall &ball, const CurvedPlane &flat);
 bool lies_apart(const MovingBall &ball, const PointBox &box);
 

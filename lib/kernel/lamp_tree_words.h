@@ -1,4 +1,3 @@
-// Writes the lamp tree into the scene buffer (shaders/gpu_layout.h).
 #pragma once
 
 #include "lib/scene/seen_scene.h"

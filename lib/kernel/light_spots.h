@@ -14,7 +14,7 @@ struct LightSpot {
     std::uint32_t lamp;
     std::uint32_t surface;
     float reflectance;
-    float glossiness; // of a mirror image; -1 for a glow
+    float glossiness;
 };
 
 // Short paths, many lamps, or more than SPOT_LIMIT spots give none. Spots do not depend on the camera, so a moving

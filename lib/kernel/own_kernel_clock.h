@@ -1,4 +1,3 @@
-// Decides when a kernel for a single scene pays.
 #pragma once
 
 #include <algorithm>

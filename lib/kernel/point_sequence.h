@@ -14,7 +14,6 @@ namespace pt {
 // Numbers beyond these dimensions are random.
 inline constexpr std::uint32_t sequence_dimensions = 64;
 
-// A multiple of 2^-32.
 std::uint32_t sobol(std::uint32_t index, std::uint32_t dimension);
 
 // Halton (1960) in the dimension-th prime base, rounded down to a multiple of 2^-32. Requires index < 2^35.
@@ -39,7 +38,6 @@ struct PointLayout {
 // Flips each binary digit by a hash of the seed and the digits before it (Owen 1995).
 std::uint32_t owen_scrambled(std::uint32_t coordinate, std::uint32_t seed);
 
-// Multiples of 2^-32, or 0 beyond the block's dimensions.
 using PointBlock = std::array<std::uint32_t, 4>;
 
 // Returns a row per index. The sampler must not be PT_SAMPLER_RANDOM. The seed scrambles Sobol points.

@@ -17,8 +17,8 @@ namespace pt {
 struct ImageQuery {
     Rectangle pixels;
     std::uint32_t quantity;
-    double unit;                       // radiance per film unit, a power of two
-    std::optional<PartCounts> samples; // of each pixel, if equal
+    double unit; // radiance per film unit, a power of two
+    std::optional<PartCounts> samples;
     std::uint32_t format = PT_FORMAT_RGB32F;
 };
 
@@ -41,7 +41,6 @@ struct ResolvedPiece {
     std::uint32_t row_words;
 };
 
-// Includes barriers before and after.
 void resolve(const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline, const DeviceFilm &film,
              std::span<const vulkan::DescriptorSet> sets, const ImageQuery &query, const ResolvedPiece &piece);
 

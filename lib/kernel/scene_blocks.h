@@ -1,4 +1,3 @@
-// First words of the scene buffer's blocks (shaders/gpu_layout.h).
 #pragma once
 
 #include "lib/kernel/scene_features.h"
@@ -20,9 +19,9 @@ struct SceneBlocks {
     std::uint64_t motion;
     std::uint64_t curvature;
     std::uint64_t lamp_tree;
-    std::uint64_t spots; // in the uniform buffer only
-    std::uint64_t index; // outside the uniform buffer only
-    std::uint64_t tree;  // with a tree only
+    std::uint64_t spots;
+    std::uint64_t index;
+    std::uint64_t tree;
     std::uint64_t word_count;
 
     explicit SceneBlocks(const Features &features);

@@ -1,4 +1,3 @@
-// The kernel features that a scene needs.
 #pragma once
 
 #include "lib/kernel/kernel_surfaces.h"

@@ -1,4 +1,3 @@
-// The kernels' SPIR-V, embedded or compiled from GLSL files.
 #pragma once
 
 #include <cstdint>

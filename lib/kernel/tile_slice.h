@@ -1,4 +1,3 @@
-// Samples of some tiles, for one submission.
 #pragma once
 
 #include "lib/film/sample_set.h"

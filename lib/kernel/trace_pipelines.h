@@ -1,4 +1,3 @@
-// Pipelines of pathtrace.comp and fold.comp.
 #pragma once
 
 #include "lib/kernel/own_kernel_clock.h"
@@ -59,7 +58,7 @@ private:
     vulkan::Device &device_;
     KernelCode code_;
     std::string kernel_key_;
-    std::list<Specialised> kept_; // most recently used first
+    std::list<Specialised> kept_;
     OwnKernelClock clock_;
     std::optional<OwnKernel> own_;
     OwnKernels own_kernels_ = OwnKernels::when_they_pay;

@@ -16,7 +16,6 @@ inline constexpr int standard_input = 0;
 inline constexpr int standard_output = 1;
 inline constexpr int standard_error = 2;
 
-// Takes names as UTF-8 in every locale.
 inline std::filesystem::path path_of(std::string_view text) {
     return std::u8string(text.begin(), text.end());
 }

@@ -42,7 +42,7 @@ std::string_view InputFile::first(std::size_t count) {
 }
 
 std::string InputFile::all() {
-    bytes_.reserve(size_ + block); // so that a large string is not moved
+    bytes_.reserve(size_ + block);
     while (take_block()) {
     }
     return std::exchange(bytes_, {});

@@ -14,10 +14,8 @@ std::string module_error();
 
 void keep_loaded(const char *name);
 
-// The folder of the library or program that has the function; empty if unknown.
 std::filesystem::path folder_with(const void *function);
 
-// The file names of a module of this project and of Open Image Denoise 2.
 std::string module_file(const std::string &name);
 extern const char *const denoiser_file;
 

@@ -11,7 +11,7 @@ namespace platform {
 
 struct Character {
     char32_t code;
-    std::size_t size; // bytes
+    std::size_t size;
 };
 
 // Decodes the first character of UTF-8. A byte that begins no valid sequence counts as a Latin-1 character.

@@ -6,12 +6,10 @@
 
 namespace platform {
 
-// Tells a forked child from its parent.
 std::int64_t process_number();
 
 std::filesystem::path program_file();
 
-// Most memory used so far.
 std::uint64_t peak_bytes();
 
 // RAM and swap, within this process's limits.

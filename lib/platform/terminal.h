@@ -1,4 +1,3 @@
-// The standard streams, and signals from terminals.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +10,6 @@ void prepare_streams();
 
 bool is_terminal(int stream);
 
-// Columns of the terminal on stderr, 0 if unknown.
 std::size_t terminal_columns();
 
 // POSIX numbers, on every system.

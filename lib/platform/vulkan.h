@@ -1,4 +1,3 @@
-// The Vulkan loader.
 #pragma once
 
 #include <vulkan/vulkan_core.h>

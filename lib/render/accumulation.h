@@ -110,7 +110,7 @@ private:
     const Cancellation &cancellation_;
     std::uint64_t wanted_;
     std::uint64_t done_ = 0;
-    TileSamples samples_; // in films or begun
+    TileSamples samples_;
     std::vector<std::uint32_t> all_tiles_;
     std::uint32_t first_sample_;
     TileTasks tasks_;

@@ -27,7 +27,6 @@ class FilmView {
 public:
     explicit FilmView(const RenderDevices &devices) : devices_(devices) {}
 
-    // Throws PT_ERROR_INTERNAL if a driver lost work.
     void read(const Image &image, const ImageQuery &query, const TileSamples &samples);
 
     // Returns the image without gaps in device memory, or no value if the device does not make images. Valid until the

@@ -56,7 +56,7 @@ ImageLayout checked_layout(const Subject &image, const Source &source, std::uint
     const bool columns_fit = check_extent(image, "width", pixels.width, {"x", "+ width"}, pixels.x, width);
     const bool rows_fit = check_extent(image, "height", pixels.height, {"y", "+ height"}, pixels.y, height);
     if (!columns_fit || !rows_fit || source.format >= format_count)
-        return layout; // The size is unknown.
+        return layout;
 
     const std::string width_text = "width * " + number_text(pixel_bytes(source.format));
     const std::uint64_t width_bytes = std::uint64_t{pixels.width} * pixel_bytes(source.format);

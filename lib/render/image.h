@@ -1,4 +1,3 @@
-// Checks callers' images and fills them.
 #pragma once
 
 #include "lib/film/film_header.h"
@@ -14,9 +13,9 @@ namespace pt {
 
 struct ImageLayout {
     Rectangle pixels;
-    std::uint32_t quantity;  // PT_QUANTITY_*
-    std::uint32_t format;    // PT_FORMAT_*
-    std::uint64_t row_bytes; // from row to row
+    std::uint32_t quantity;
+    std::uint32_t format;
+    std::uint64_t row_bytes;
 };
 
 struct Image {
@@ -26,7 +25,7 @@ struct Image {
 
 struct BufferImage {
     ImageLayout layout;
-    std::uint64_t buffer; // VkBuffer
+    std::uint64_t buffer;
     std::uint64_t offset_bytes;
     std::uint64_t wait_semaphore;   // VkSemaphore, or 0
     std::uint64_t signal_semaphore; // VkSemaphore, or 0

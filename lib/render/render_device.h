@@ -61,7 +61,6 @@ public:
     void keep_kernels(const vulkan::KernelStore &store);
     void save_kernels() noexcept;
 
-    // Throws PT_ERROR_UNSUPPORTED if the device is too small.
     DeviceFilm make_film(const RenderSettings &settings);
     void set_film(DeviceFilm film);
 
@@ -74,7 +73,6 @@ public:
     // Makes a kernel for this scene, or shows the scene to the present kernel. Needs a film. No work may be running.
     void prepare(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings);
 
-    // Also builds everything that the kernel will need.
     void prepare_ahead(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings);
 
     // Builds everything that start() needs until the next prepare().
@@ -94,7 +92,6 @@ public:
     // Returns whether finish() would return at once. Work must be running.
     bool is_done(vulkan::Device::Clock::time_point until) { return device_.is_done(under_way_.front().ticket, until); }
 
-    // Notes slices that have ended, so that their times are measured.
     void look() { device_.look(); }
 
     // Waits for the oldest slice. If its end was not noticed in time, `seconds` is estimated.
@@ -119,7 +116,7 @@ private:
 
     vulkan::Device device_;
     KernelCode code_;
-    std::unique_ptr<TracePipelines> pipelines_; // never NULL
+    std::unique_ptr<TracePipelines> pipelines_;
     double target_seconds_;
     double tests_per_second_; // assumed until the first measurement
     std::optional<ResolvePipelines> resolve_;
@@ -135,13 +132,12 @@ private:
     std::optional<Coverage> coverage_;
     std::optional<Kernel> kernel_;
     std::optional<Schedule> schedule_;
-    std::vector<Work> under_way_; // never reallocated
+    std::vector<Work> under_way_;
     bool film_is_void_ = true;
 };
 
 using RenderDevices = std::vector<std::unique_ptr<RenderDevice>>;
 
-// Passes built kernels to the caller at the end of a call.
 class KernelsKept {
 public:
     explicit KernelsKept(const RenderDevices &devices) : devices_(devices) {}

@@ -26,7 +26,6 @@ public:
 
     double expected_seconds(double paths) const;
 
-    // Ignores negative times and NaN.
     void measured(double paths, double seconds);
 
 private:

@@ -15,12 +15,11 @@ namespace {
 // If a lamp covers more of a pixel, 16 samples hit it often enough. Calibrated.
 constexpr double largest_share = 0.5;
 
-// In pixels from the image's top left corner.
 struct Disc {
     double x;
     double y;
-    double radius; // includes blur
-    double size;   // area without blur
+    double radius;
+    double size;
 
     double area() const { return std::numbers::pi * radius * radius; }
     bool overlaps(std::uint32_t width, std::uint32_t height) const {
@@ -205,7 +204,7 @@ std::uint64_t samples_to_hit(const LampPiece &piece, double offset, bool is_rand
 namespace {
 
 struct UnmetPiece {
-    double hits; // over all pixels
+    double hits;
     double square;
     double relative_square;
     double lack; // squares of pixels without a hit

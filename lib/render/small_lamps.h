@@ -1,4 +1,3 @@
-// Lamps in view that are smaller than a pixel, and the errors that they cause.
 #pragma once
 
 #include "lib/kernel/prepared_scene.h"
@@ -14,7 +13,7 @@ namespace pt {
 
 // The part of a lamp in one pixel, or in each of several equal pixels.
 struct LampPiece {
-    std::uint32_t x; // relative to the rows
+    std::uint32_t x;
     std::uint32_t y;
     double share;      // fraction of samples that hit the lamp
     double lamp_share; // largest fraction of a pixel that the whole lamp covers

@@ -32,7 +32,6 @@ public:
     // Whether only some tiles of a task have begun its next samples.
     bool is_within_samples() const { return !empty() && tasks_.back().next_tile > 0; }
 
-    // Returns a slice as large as the schedule allows. Requires !empty().
     TileSlice next(const Schedule &schedule);
 
     // Whether a slice of this many tiles would be the last with its samples, or the last of all.
@@ -46,9 +45,9 @@ private:
     struct Task {
         std::uint32_t set;
         std::uint64_t wanted;
-        SampleRange before; // hull of present samples
+        SampleRange before;
         SampleRange samples;
-        SampleRange chunk{}; // samples being taken
+        SampleRange chunk{};
         std::vector<std::uint32_t> found{};
         std::span<const std::uint32_t> tiles{}; // ascending; either `found` or all tiles
         std::size_t next_tile = 0;
@@ -56,7 +55,7 @@ private:
 
     Task &add_task(std::uint32_t set, std::uint64_t wanted, const SampleSet &present, std::uint32_t first_sample);
 
-    std::vector<Task> tasks_; // the last one is running
+    std::vector<Task> tasks_;
 };
 
 } // namespace pt

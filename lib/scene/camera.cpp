@@ -73,7 +73,6 @@ void check_fields(const pt_camera &camera) {
     }
     subject.check("shutter_open", camera.shutter_open, shutter_rule);
     subject.check("shutter_close", camera.shutter_close, shutter_rule);
-    // shutter_rule() has already rejected NaN.
     subject.require(!(camera.shutter_close < camera.shutter_open), "shutter_close", camera.shutter_close,
                     "must be >= shutter_open (" + number_text(camera.shutter_open) + ")");
     violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);

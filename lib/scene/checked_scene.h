@@ -1,4 +1,3 @@
-// A valid scene. Its spheres are still in the caller's memory.
 #pragma once
 
 #include "lib/base/work_progress.h"

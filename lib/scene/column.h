@@ -1,4 +1,3 @@
-// Reads elements of a pt_column.
 #pragma once
 
 #include "lib/scene/srgb.h"

@@ -1,4 +1,3 @@
-// The shape and order of the lamp tree (gpu_layout.h).
 #pragma once
 
 #include "lib/scene/scene.h"
@@ -14,7 +13,7 @@ class LampTreeShape {
 public:
     explicit LampTreeShape(std::uint32_t lamp_count);
 
-    std::uint32_t levels() const { return levels_; } // levels below the top, >= 1
+    std::uint32_t levels() const { return levels_; }
     std::uint32_t top_groups() const { return top_groups_; }
     std::uint64_t slots() const { return 4 * groups_of(levels_); }
 
@@ -24,7 +23,6 @@ public:
     }
     std::uint64_t all_groups() const { return groups_above(levels_ + 1); }
 
-    // First lamp at or after this slot.
     std::uint32_t first_lamp(std::uint64_t slot) const {
         return static_cast<std::uint32_t>((slot * lamp_count_ + slots() - 1) / slots());
     }

@@ -27,8 +27,8 @@ private:
 };
 
 struct MovingBall {
-    glm::dvec3 open; // center at the beginning
-    glm::dvec3 way;  // displacement until the end
+    glm::dvec3 open;
+    glm::dvec3 way;
     double radius;
     Kind kind = Kind::ball;
 
@@ -64,7 +64,6 @@ inline double with_margin(double length) {
     return length * (1.0 + side_margin);
 }
 
-// Least distance of a moving point from the origin.
 inline double least_distance(const glm::dvec3 &open, const glm::dvec3 &way) {
     const double length = glm::dot(way, way);
     const double nearest = length > 0.0 ? std::clamp(-glm::dot(open, way) / length, 0.0, 1.0) : 0.0;

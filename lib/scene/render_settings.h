@@ -1,4 +1,3 @@
-// Valid render settings, with defaults applied.
 #pragma once
 
 #include <pt/pt.h>
@@ -16,7 +15,7 @@ struct RenderSettings {
     std::uint32_t estimator;
     std::uint32_t sampler;
     std::uint32_t first_row;
-    std::uint32_t row_count; // >= 1; within the image
+    std::uint32_t row_count;
 };
 
 // Throws PT_ERROR_INVALID_ARGUMENT with all broken rules.

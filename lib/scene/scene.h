@@ -1,4 +1,3 @@
-// A valid scene that owns its data.
 #pragma once
 
 #include "lib/base/digest.h"
@@ -44,10 +43,10 @@ inline double passing_share(std::int16_t opacity) {
 struct Sphere {
     glm::dvec3 center;
     double radius;
-    glm::dvec3 motion;      // from time 0 to 1; for capsules from end to end
-    std::uint32_t material; // index into Scene::materials
+    glm::dvec3 motion; // from time 0 to 1; for capsules from end to end
+    std::uint32_t material;
     Kind kind = Kind::ball;
-    std::int16_t opacity = no_opacity; // in steps
+    std::int16_t opacity = no_opacity;
 
     bool is_translucent() const { return opacity != no_opacity && opacity < opaque; }
 
@@ -77,7 +76,7 @@ Scene owned_scene(CheckedScene checked, const std::vector<std::uint32_t> *only =
 struct SpherePlace {
     const char *subject;
     std::int64_t index;
-    std::int32_t component; // -1 outside arrays
+    std::int32_t component;
 };
 
 SpherePlace place_of_sphere(const Scene &scene, std::size_t position);

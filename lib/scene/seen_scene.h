@@ -12,9 +12,9 @@
 namespace pt {
 
 struct SeenSphere : MovingBall {
-    double distance;        // distance of the center as the shutter opens
-    std::uint32_t material; // index into Scene::materials
-    std::uint32_t index;    // index into Scene::spheres
+    double distance; // distance of the center as the shutter opens
+    std::uint32_t material;
+    std::uint32_t index;
     bool emits;
     bool hidden;
     bool is_flat; // whether the kernel treats it as a curved plane
@@ -31,13 +31,12 @@ struct CurvedPlane {
     glm::dvec3 normal; // at the point nearest to the camera; outwards for a sphere
     double offset;     // distance of the camera, positive on the normal's side
     double curvature;  // 1 / radius; 0 for a plane
-    glm::dvec3 way;    // motion while the shutter is open
+    glm::dvec3 way;
     std::uint32_t material;
     std::uint32_t index; // index into Scene::planes, or into Scene::spheres if curved
     bool hidden = false;
 };
 
-// Turns the normal towards the camera.
 CurvedPlane curved_plane(const Plane &plane, const Material &of_plane, const Camera &camera, std::uint32_t index = 0);
 
 // sphere.is_flat must hold. A center and radius in float32 would give the surface an error of 2^-24 of the radius. The

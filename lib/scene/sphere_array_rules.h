@@ -1,4 +1,3 @@
-// The rules of pt_scene.sphere_arrays.
 #pragma once
 
 #include "lib/base/rules.h"

@@ -8,7 +8,7 @@ namespace pt {
 // differently for each ray of a path, and light would count twice or never.
 struct DistinctScene {
     SeenScene seen;
-    bool close_lamps;  // a lamp and another sphere differ by less than 1/4 of their radii
+    bool close_lamps;
     bool close_planes; // two planes differ by less than 2^-8 in direction and distance
 };
 

@@ -10,7 +10,6 @@ namespace pt {
 // axis. The spheres must have different centers. Equal ones stay together.
 Halves binned_halves(const Part &part);
 
-// Up to this many spheres, trying all cuts is faster than bins.
 inline constexpr std::size_t most_swept = 12;
 
 // Tries all cuts along each axis, for at most most_swept spheres.

@@ -16,8 +16,8 @@ struct Grid {
     // Differences to a camera at twice this distance do not overflow.
     static constexpr double reach = gpu::TREE_REACH;
 
-    glm::dvec3 middle; // in scene units
-    double step;       // scene units, a power of two
+    glm::dvec3 middle;
+    double step; // scene units, a power of two
     double steps_per_unit;
 
     // The finest grid that reaches this distance along each axis.
@@ -48,7 +48,6 @@ private:
     }
 };
 
-// Includes both corners. A default box is empty.
 struct GridBox {
     glm::ivec3 low{INT32_MAX};
     glm::ivec3 high{INT32_MIN};

@@ -1,4 +1,3 @@
-// Groups of spheres that a tree's build has not yet split.
 #pragma once
 
 #include "lib/base/mixed.h"

@@ -28,9 +28,9 @@ struct TreeLinks {
 };
 
 struct TreeShape {
-    std::vector<TreeLinks> nodes;       // the root first, each node before its children
-    std::vector<std::uint32_t> spheres; // sphere index by slot
-    std::uint32_t depth;                // nodes on the longest path
+    std::vector<TreeLinks> nodes; // the root first, each node before its children
+    std::vector<std::uint32_t> spheres;
+    std::uint32_t depth;
 };
 
 // Geometry, and for translucent spheres material and color. Spheres with equal bits are twins, of which only the first

@@ -59,7 +59,6 @@ public:
     Kinds kinds() const { return kinds_; }
     bool has_opacities() const { return has_opacities_; }
 
-    // Scene index by slot.
     std::span<const std::uint32_t> spheres() const { return *spheres_; }
     std::uint32_t scene_sphere_count() const { return scene_sphere_count_; }
     bool has_colors() const { return has_colors_; }

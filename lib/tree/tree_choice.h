@@ -1,4 +1,3 @@
-// Decides whether a scene has a tree, and which spheres are outside it.
 #pragma once
 
 #include "lib/base/work_progress.h"

@@ -1,4 +1,3 @@
-// A tree node in the kernel's layout (gpu_layout.h).
 #pragma once
 
 #include "lib/tree/grid.h"
@@ -12,7 +11,6 @@ namespace pt {
 
 using TreeNodeWords = std::array<glm::uvec4, gpu::TREE_NODE_WORDS>;
 
-// Sets only the links.
 TreeNodeWords words_of(const TreeLinks &links);
 
 class TreeNode {
@@ -26,7 +24,6 @@ public:
 
     const GridBox &box() const { return box_; }
 
-    // Rounds the children's boxes outwards.
     TreeNodeWords words() const;
 
 private:
@@ -35,7 +32,6 @@ private:
     std::array<GridBox, tree_width> boxes_{};
 };
 
-// Reads the node at the beginning of the words.
 class TreeNodeView {
 public:
     explicit TreeNodeView(std::span<const glm::uvec4> words) : words_(words.first(gpu::TREE_NODE_WORDS)) {}

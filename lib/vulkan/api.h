@@ -1,4 +1,3 @@
-// Vulkan-Hpp with RAII, exceptions and the linked loader.
 #pragma once
 
 #define VULKAN_HPP_NO_CONSTRUCTORS

@@ -1,4 +1,3 @@
-// A buffer on the device with its own memory.
 #pragma once
 
 #include "lib/vulkan/device.h"
@@ -13,9 +12,9 @@ namespace pt::vulkan {
 
 enum class BufferUse {
     Storage,
-    UniformOrStorage, // also for texels
+    UniformOrStorage,
     Texels,
-    Streamed,    // written often by the host
+    Streamed,
     HostWritten, // in mapped memory
     HostRead     // in mapped memory
 };
@@ -29,7 +28,6 @@ inline constexpr std::uint64_t max_recorded_bytes = 65'536;
 
 class Buffer {
 public:
-    // Throws PT_ERROR_OUT_OF_DEVICE_MEMORY.
     Buffer(Device &device, BufferUse use, std::uint64_t bytes, const std::string &what);
     ~Buffer();
     Buffer(Buffer &&other) noexcept;
@@ -46,7 +44,6 @@ public:
     // The data is NULL if the host cannot access the buffer.
     std::span<std::byte> host_memory() const;
 
-    // Records a write at the buffer's beginning.
     void write(const vk::raii::CommandBuffer &commands, std::span<const std::byte> data) const;
 
     void clear(const vk::raii::CommandBuffer &commands, std::uint64_t offset, std::uint64_t bytes) const;

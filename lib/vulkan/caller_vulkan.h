@@ -1,4 +1,3 @@
-// The caller's Vulkan handles (pt_vulkan).
 #pragma once
 
 #include "lib/vulkan/api.h"

@@ -1,4 +1,3 @@
-// A specialised compute kernel.
 #pragma once
 
 #include "lib/vulkan/buffer.h"

@@ -22,10 +22,10 @@ struct Limits {
     std::uint64_t max_storage_buffer_range;
     std::uint64_t max_texel_count;
     std::uint64_t max_allocation_bytes;
-    std::uint32_t max_uniform_range; // a multiple of 256
+    std::uint32_t max_uniform_range;
     std::uint32_t max_workgroup_count;
-    std::uint64_t storage_buffer_alignment; // bytes
-    std::uint64_t loop_trip_budget;         // The driver silently ends longer loops.
+    std::uint64_t storage_buffer_alignment;
+    std::uint64_t loop_trip_budget; // The driver silently ends longer loops.
 };
 
 // How the library uses a device. Tests override it.
@@ -88,7 +88,6 @@ public:
     // Keeps the device and its objects alive for ever.
     void abandon() noexcept { abandoned_ = true; }
 
-    // Throws PT_ERROR_DEVICE_LOST with the reason.
     void require_alive() const;
 
     using Record = std::function<void(const vk::raii::CommandBuffer &)>;

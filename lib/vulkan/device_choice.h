@@ -1,4 +1,3 @@
-// Describes and chooses Vulkan devices.
 #pragma once
 
 #include "lib/vulkan/api.h"

@@ -1,4 +1,3 @@
-// Owns an object on a device.
 #pragma once
 
 #include "lib/vulkan/device.h"

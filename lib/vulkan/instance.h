@@ -1,4 +1,3 @@
-// The library's or the caller's Vulkan instance.
 #pragma once
 
 #include "lib/base/log.h"
@@ -15,7 +14,6 @@ public:
     // Throws PT_ERROR_NO_DEVICE without Vulkan or drivers, or PT_ERROR_UNSUPPORTED without the validation layer.
     Instance(const Log &log, bool validation);
 
-    // Does not own the caller's instance.
     Instance(const Log &log, VkInstance instance);
     Instance(Instance &&) noexcept = default;
     ~Instance() {

@@ -1,4 +1,3 @@
-// Creates the library's own VkDevice.
 #pragma once
 
 #include "lib/vulkan/api.h"

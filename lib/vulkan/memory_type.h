@@ -1,4 +1,3 @@
-// Chooses memory types.
 #pragma once
 
 #include "lib/base/error.h"

@@ -1,4 +1,3 @@
-// Translates Vulkan's errors.
 #pragma once
 
 #include "lib/base/error.h"

@@ -21,7 +21,6 @@ std::uint64_t peak_bytes() {
     return static_cast<std::uint64_t>(usage.ru_maxrss);
 }
 
-// Swap files are left out, because they grow as needed.
 std::uint64_t most_bytes() {
     std::uint64_t memory = 0;
     std::size_t size = sizeof memory;

@@ -30,7 +30,7 @@ void keep_loaded(const char *) {}
 fs::path folder_with(const void *function) {
     constexpr DWORD how = GET_MODULE_HANDLE_EX_FLAG_FROM_ADDRESS | GET_MODULE_HANDLE_EX_FLAG_UNCHANGED_REFCOUNT;
     HMODULE module = nullptr;
-    std::vector<wchar_t> path(32768); // the longest path
+    std::vector<wchar_t> path(32768);
     if (!GetModuleHandleExW(how, static_cast<const wchar_t *>(function), &module) ||
         GetModuleFileNameW(module, path.data(), static_cast<DWORD>(path.size())) == 0)
         return {};

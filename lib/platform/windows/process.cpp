@@ -34,7 +34,7 @@ std::int64_t process_number() {
 }
 
 fs::path program_file() {
-    std::vector<wchar_t> path(32768); // the longest path
+    std::vector<wchar_t> path(32768);
     GetModuleFileNameW(nullptr, path.data(), static_cast<DWORD>(path.size()));
     return path.data();
 }
@@ -49,7 +49,7 @@ std::uint64_t most_bytes() {
     MEMORYSTATUSEX status{};
     status.dwLength = sizeof status;
     GlobalMemoryStatusEx(&status);
-    return status.ullTotalPageFile; // RAM and page files
+    return status.ullTotalPageFile;
 }
 
 void set_environment(const char *name, const char *value) {

@@ -33,7 +33,7 @@ void prepare_streams() {
     SetConsoleOutputCP(CP_UTF8);
     DWORD mode = 0;
     if (GetConsoleMode(errors(), &mode))
-        SetConsoleMode(errors(), mode | ENABLE_VIRTUAL_TERMINAL_PROCESSING); // for escape sequences
+        SetConsoleMode(errors(), mode | ENABLE_VIRTUAL_TERMINAL_PROCESSING);
 }
 
 bool is_terminal(int stream) {

@@ -1,4 +1,3 @@
-// Includes windows.h without macros such as min and max.
 #pragma once
 
 #define WIN32_LEAN_AND_MEAN
