@@ -24,19 +24,20 @@ struct AnimatedValue {
     bool is_array;
     std::vector<KeyFrame> keys; // ascending; at least one
 
-    // time: in frames. Linear between key frames, constant outside.
+    // `time` is in frames. Linear between key frames, constant outside.
     std::vector<double> at(double time) const;
 };
 
 // Throws JsonRefusal.
 AnimatedValue read_animated_value(const JsonPlace &place, const nlohmann::json &value);
 
-// A frame lasts from its number to the next; shutter times are shares of it. Spheres move straight during a frame; all
-// else stands still as in the middle of the shutter's time.
+// A frame lasts from its number to the next. Shutter times are fractions of it. Spheres move straight during a frame.
+// Everything else stands still as in the middle of the shutter's time.
 std::vector<SceneOverride> overrides_of_frame(const SceneFile &scene, std::uint32_t frame);
 
-// The file with the values of a frame, before the file's own overrides. Adds the frame's number to the seed: equal
-// noise in all frames would look like a screen before them. Throws PT_ERROR_INVALID_SCENE, also without an animation.
+// Returns the file with the values of a frame, before the file's own overrides. Adds the frame's number to the seed,
+// because equal noise in all frames would look like a fixed pattern. Throws PT_ERROR_INVALID_SCENE, also without an
+// animation.
 SceneFile scene_in_frame(const SceneFile &scene, std::uint32_t frame);
 
 } // namespace pt

@@ -17,7 +17,7 @@
 
 struct pt_scene_file {
     pt::SceneFile read;
-    std::size_t animated_count = 0; // first ones of read.overrides, which come from the animation
+    std::size_t animated_count = 0; // the first of read.overrides come from the animation
     std::vector<pt_sphere_array> arrays;
     std::vector<std::string> column_paths;
     std::string message;

@@ -14,7 +14,6 @@ namespace {
 
 using nlohmann::json;
 
-// Reports its position.
 class TellingIterator {
 public:
     using iterator_category = std::input_iterator_tag;
@@ -39,13 +38,12 @@ private:
 
 class ItemParser {
 public:
-    // wanted: path whose line is searched.
+    // Also finds the line of the value at `wanted`.
     ItemParser(JsonItemHandler &handler, const JsonPath &wanted) :
         handler_(handler),
         wanted_(wanted),
         line_depth_(wanted.empty() ? 0 : 1) {}
 
-    // Throws the parser's exceptions and JsonRefusal.
     void parse(std::string_view text) {
         constexpr bool throws = true;
         constexpr bool ignore_comments = true;
@@ -65,10 +63,10 @@ public:
 
     std::optional<std::size_t> line() const { return line_; }
 
-    // Where a comma is missing, if it is. wrong_end: end of the first wrong token.
+    // Returns where a comma is missing, if one is. `wrong_end` is the end of the first wrong token.
     std::optional<std::size_t> missing_comma(std::string_view text, std::size_t wrong_end) const {
         constexpr std::string_view blanks = " \t\r\n";
-        constexpr std::string_view ends_of_values = "\"{[0123456789el"; // or their beginnings
+        constexpr std::string_view ends_of_values = "\"{[0123456789el";
         const bool has_another = !levels_.empty() && wrong_end > 0 && wrong_end <= text.size() &&
                                  ends_of_values.find(text[wrong_end - 1]) != std::string_view::npos;
         if (!has_another || !after_value_)
@@ -84,15 +82,14 @@ private:
         std::set<std::string> keys{};
     };
 
-    // Depth of an item's value.
     static constexpr std::size_t section_depth = 1;
     static constexpr std::size_t element_depth = 2;
 
-    // The parser's callback; false discards the value.
+    // The parser's callback. Returning false discards the value.
     bool take(json::parse_event_t event, const json &parsed) {
         const bool is_end = event == json::parse_event_t::array_end || event == json::parse_event_t::object_end;
         after_value_ = is_end || event == json::parse_event_t::value;
-        value_end_ = reached_ - (parsed.is_number() ? 1 : 0); // one more character has been read
+        value_end_ = reached_ - (parsed.is_number() ? 1 : 0); // the parser has read one more character
         switch (event) {
         case json::parse_event_t::object_start:
         case json::parse_event_t::array_start:
@@ -124,8 +121,8 @@ private:
         return path;
     }
 
-    // Notes the line if this is the wanted value. The last character read does not count: after a number it may be a
-    // line end.
+    // Notes the line if this is the wanted value. The last character read may be the line end after a number, so it
+    // does not count.
     void enter() {
         const bool leads_there =
             levels_.size() >= line_depth_ && levels_.size() <= wanted_.size() &&
@@ -145,7 +142,7 @@ private:
             throw JsonRefusal(path(), "is given twice");
     }
 
-    // A member's line is its key's; an element's line is its beginning.
+    // The line of a member is its key's. The line of an element is where the element begins.
     void enter_value(json::value_t kind) {
         if (levels_.empty()) {
             enter();
@@ -163,10 +160,10 @@ private:
 
     void begin(bool is_array) {
         enter_value(is_array ? json::value_t::array : json::value_t::object);
-        levels_.push_back({{{}, is_array ? static_cast<std::size_t>(-1) : 0, is_array}}); // the first makes it 0
+        levels_.push_back({{{}, is_array ? static_cast<std::size_t>(-1) : 0, is_array}}); // the first makes this 0
     }
 
-    // Hands out and discards items.
+    // Passes items to the handler and discards them.
     bool hand_out(const json &value) {
         if (levels_.size() != element_depth)
             return true;
@@ -184,18 +181,18 @@ private:
     const char *value_end_ = nullptr;
     bool after_value_ = false;
     std::vector<Level> levels_;
-    std::size_t line_depth_; // of the value that `line_` belongs to
+    std::size_t line_depth_;
     std::optional<std::size_t> line_;
 };
 
-// "3:14": the position after this text, from 1; columns are bytes.
+// For example "3:14", the position after this text. Lines and columns (bytes) count from 1.
 std::string line_and_column(std::string_view before) {
     const auto line = std::count(before.begin(), before.end(), '\n') + 1;
     const std::size_t line_start = before.rfind('\n') + 1;
     return std::to_string(line) + ":" + std::to_string(before.size() - line_start + 1);
 }
 
-// Rewords the parser's message. error.byte includes the wrong character.
+// Rewords the parser's message. error.byte counts the wrong character.
 Error error_of(const json::parse_error &error, const ItemParser &parser, std::string_view text,
                const std::string &file_name) {
     if (const auto comma = parser.missing_comma(text, error.byte))
@@ -212,7 +209,7 @@ Error error_of(const json::parse_error &error, const ItemParser &parser, std::st
 } // namespace
 
 void parse_json_items(std::string_view text, const std::string &file_name, JsonItemHandler &handler) {
-    if (text.empty()) // versions of nlohmann-json differ here
+    if (text.empty())
         throw Error(PT_ERROR_INVALID_SCENE, file_name + ":1:1: syntax error: the file is empty");
     const JsonPath none;
     ItemParser parser(handler, none);
@@ -241,7 +238,7 @@ std::optional<std::size_t> line_of(std::string_view text, const JsonPath &path) 
     ItemParser parser(nobody, path);
     try {
         parser.parse(text);
-    } catch (const std::exception &) { // was reported by parse_json_items()
+    } catch (const std::exception &) {
     }
     return parser.line();
 }

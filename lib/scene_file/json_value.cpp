@@ -33,7 +33,6 @@ std::optional<JsonStep> parse_bracketed(std::string_view text) {
     return error == std::errc{} && end == all ? std::optional(JsonStep{{}, index, true}) : std::nullopt;
 }
 
-// Empty without a closing bracket.
 std::optional<std::size_t> bracketed_length(std::string_view text) {
     bool is_quoted = false;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -45,7 +44,7 @@ std::optional<std::size_t> bracketed_length(std::string_view text) {
     return std::nullopt;
 }
 
-// Shortest exact text; whole numbers below 1e15 without exponent.
+// The shortest exact text. Whole numbers below 1e15 have no exponent.
 std::string number_text(double number) {
     if (std::abs(number) < 1e15 && number == std::trunc(number))
         return std::to_string(static_cast<std::int64_t>(number));

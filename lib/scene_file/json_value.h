@@ -57,7 +57,7 @@ struct JsonRefusal : std::runtime_error {
         cause(std::move(place)) {}
 
     JsonPath path;
-    JsonPath cause; // value or unknown key whose line the message has
+    JsonPath cause; // value or unknown key whose line the message names
 };
 
 [[noreturn]] inline void refuse(const JsonPlace &place, const std::string &rule) {
@@ -67,7 +67,7 @@ struct JsonRefusal : std::runtime_error {
 struct ValueRule {
     enum class Form {
         number,
-        whole_number, // 1e3, too
+        whole_number,
         number_or_auto,
         boolean,
         text,
@@ -79,12 +79,12 @@ struct ValueRule {
     double least = -std::numeric_limits<double>::infinity();
     double largest = std::numeric_limits<double>::infinity();
     bool excludes_largest = false;
-    bool may_be_negative = false; // also allows the negative range and 0
-    bool is_of_library = false;   // The library checks the range.
+    bool may_be_negative = false;
+    bool is_of_library = false; // The library checks the range.
     bool is_float = false;
-    bool excludes_zeros = false; // refuses zeros only
+    bool excludes_zeros = false;
     std::size_t count = 0;
-    std::string_view kind = {}; // kind of names, for messages
+    std::string_view kind = {};
     std::span<const std::string_view> names = {};
     std::string_view unit = {};
 };

@@ -13,7 +13,7 @@ char lower(char letter) {
     return static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
 }
 
-// Optimal string alignment distance, ignoring case. Damerau 1964: 80% of misspellings are one edit.
+// Optimal string alignment distance without regard to case. Damerau 1964: 80% of misspellings are one edit.
 std::size_t edit_distance(std::string_view from, std::string_view to) {
     std::vector<std::size_t> before_last(to.size() + 1);
     std::vector<std::size_t> last(to.size() + 1);
@@ -43,7 +43,7 @@ std::string_view nearest_name(std::string_view name, std::span<const std::string
         const std::size_t shorter = std::min(candidate.size(), name.size());
         const std::size_t longer = std::max(candidate.size(), name.size());
         if (longer - shorter >= best_distance)
-            continue; // a lower bound of the distance
+            continue;
         const std::size_t distance = edit_distance(name, candidate);
         if (distance < best_distance) {
             best_distance = distance;

@@ -20,7 +20,6 @@ bool is_opaque(const Look &look) {
     return look.opacity == 1.0F;
 }
 
-// Opacities cost time, so they are set only if some sphere has one.
 void put_looks(pt_sphere_array &array, const Look &first, std::uint32_t stride, bool are_opaque) {
     array.color = {&first.color, stride, PT_TYPE_FLOAT32};
     if (!are_opaque)
@@ -58,7 +57,7 @@ constexpr std::array<std::array<std::string_view, 2>, 6> renamed{{{"camera.targe
                                                                   {"render.height", "film.height"},
                                                                   {"accumulate.sample_count", "render.spp"}}};
 
-// Spheres and capsules with looks are arrays, too; they come before items that are many.
+// Spheres and capsules with looks are arrays, too. They come before items that are many.
 JsonPath path_in_arrays(const SceneFile &scene, const BrokenRule &rule) {
     const std::size_t of_spheres = scene.looks.empty() ? 0 : 1;
     const std::size_t of_single = of_spheres + (scene.capsules.empty() ? 0 : 1);
@@ -71,7 +70,7 @@ JsonPath path_in_arrays(const SceneFile &scene, const BrokenRule &rule) {
     const std::string_view section = many ? many->section : array < of_spheres ? "spheres" : "capsules";
     const std::size_t item = many ? many->item : scene.item_of(section, element);
     JsonPath path{{std::string(section)}, {{}, item, true}, {rule.member}};
-    if (rule.component >= 0 && !is_single && rule.member != "material") // one for all
+    if (rule.component >= 0 && !is_single && rule.member != "material") // one value for all
         path.push_back({{}, element, true});
     return path;
 }
@@ -88,7 +87,6 @@ BrokenRule with_names(const SceneFile &scene, const BrokenRule &rule) {
     return named;
 }
 
-// Empty if the file has no such field.
 JsonPath path_of(const SceneFile &scene, const BrokenRule &rule) {
     if (rule.subject == "sphere_arrays" && rule.index >= 0)
         return path_in_arrays(scene, rule);
@@ -114,7 +112,6 @@ JsonPath path_of(const SceneFile &scene, const BrokenRule &rule) {
     return path;
 }
 
-// nullptr: none.
 const SceneOverride *find_override(const SceneFile &scene, const JsonPath &path) {
     const auto found = std::find_if(scene.overrides.rbegin(), scene.overrides.rend(),
                                     [&](const SceneOverride &each) { return is_within(path, each.path); });

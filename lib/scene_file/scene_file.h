@@ -1,4 +1,4 @@
-// Reads scene files into the structs of pt.h. Checks names, types and units; libpt checks ranges, and explain()
+// Reads scene files into the structs of pt.h. Checks names, types and units. libpt checks ranges, and explain()
 // translates its messages. Errors are PT_ERROR_INVALID_SCENE, or an override's `blame`.
 #pragma once
 
@@ -57,34 +57,33 @@ struct Capsule {
 
 // The source of a value that libpt refuses.
 struct RuleSource {
-    std::string message;                  // "scene.json:7: materials.gold.glossiness = -1: must be >= 0"
-    std::size_t line = 0;                 // 0: the value is not in the file
-    const SceneOverride *cause = nullptr; // nullptr: none
+    std::string message;  // "scene.json:7: materials.gold.glossiness = -1: must be >= 0"
+    std::size_t line = 0; // 0 if the value is not in the file
+    const SceneOverride *cause = nullptr;
 };
 
 struct SceneFile {
     std::string path;
-    std::string text; // gives messages their line numbers
+    std::string text;
     std::vector<SceneOverride> overrides;
-    std::vector<JsonPath> given;             // keys of `camera`, `film` and `render`
-    std::vector<std::string> material_names; // all arrays from here on are in the file's order
+    std::vector<JsonPath> given; // keys of `camera`, `film` and `render`
+    std::vector<std::string> material_names;
     std::vector<pt_material> materials;
     std::vector<std::uint32_t> used_materials; // ascending
     std::vector<pt_sphere> spheres;
     std::vector<Look> looks; // as many as spheres, or empty
     std::vector<Capsule> capsules;
     std::vector<pt_plane> planes;
-    std::vector<SphereColumns> sphere_columns; // files are read by read_columns()
+    std::vector<SphereColumns> sphere_columns;
     std::vector<AnimatedValue> animation;
     pt_camera camera = default_camera();
     pt_render render = default_render();
-    std::optional<std::uint32_t> sample_count; // samples of a pixel
+    std::optional<std::uint32_t> sample_count;
     pt_display_info display = default_display();
 
     void add_sphere(const pt_sphere &sphere, const std::optional<Look> &look);
 
-    // Both point into this object. First come single spheres if any has a look, then capsules, then each item that is
-    // many.
+    // Points into this object. First come single spheres if any has a look, then capsules, then each item that is many.
     pt_scene scene() const;
     std::vector<pt_sphere_array> sphere_arrays() const;
     std::size_t item_of(std::string_view section,
@@ -92,17 +91,16 @@ struct SceneFile {
 
     bool gives(const JsonPath &key) const;
 
-    // Whether the file or an override gives the field; else it has its default, or is no field of scene files.
+    // Whether the file or an override gives the field. Other fields have their default or do not exist in scene files.
     bool gives(const BrokenRule &rule) const;
 
     RuleSource source_of(const BrokenRule &rule) const;
     std::string explain(const BrokenRule &rule) const { return source_of(rule).message; }
 
-    // PT_ERROR_INVALID_SCENE, or the override's.
     pt_result blame(const BrokenRule &rule) const;
 };
 
-// Later overrides win. path: for messages and columns.
+// Later overrides win. Messages and columns use `path`.
 SceneFile scene_of_text(std::string text, const std::string &path, std::vector<SceneOverride> overrides = {});
 
 // Also throws PT_ERROR_FILE.

@@ -14,7 +14,7 @@ using Item = SceneItem &;
 using Value = const json &;
 using Form = ValueRule::Form;
 
-constexpr double least_length = 1e-18; // its square is a float32
+constexpr double least_length = 1e-18;
 constexpr double largest_length = 1e18;
 
 constexpr ValueRule lengths{.form = Form::numbers,
@@ -46,7 +46,7 @@ constexpr ValueRule one_of(std::string_view kind, std::span<const std::string_vi
 }
 
 constexpr double largest_uint32 = std::numeric_limits<std::uint32_t>::max();
-constexpr double largest_uint64 = 0x1p64; // rounded up
+constexpr double largest_uint64 = 0x1p64;
 
 template <typename Number, std::size_t Count>
 void put(Value value, Number (&target)[Count]) {
@@ -69,7 +69,7 @@ constexpr std::array camera_keys{
              [](Item item, Value value) {
                  item.scene.camera.projection = projections.find(value.get_ref<const std::string &>()).value();
              }},
-    // The library's [1e-8, pi) in degrees. 0 would mean its default, here and for the extent.
+    // The library's [1e-8, pi) in degrees. In the library 0 means the default, here and for the extent.
     SceneKey{"vertical_fov",
              {.least = 6e-7, .largest = 180.0, .excludes_largest = true, .unit = "degrees"},
              "Vertical angle of view (perspective)",

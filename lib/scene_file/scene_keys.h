@@ -18,7 +18,7 @@ struct SceneItem {
     SceneFile &scene;
     pt_material material{};
     pt_sphere sphere{};
-    double end[3]{}; // a capsule's other end
+    double end[3]{};
     std::optional<Look> look = std::nullopt;
     pt_plane plane{};
     std::string material_name{};
@@ -28,11 +28,11 @@ struct SceneKey {
     std::string_view name;
     ValueRule rule;
     std::string_view words;
-    std::string_view initial; // the default as in a file; empty: none
+    std::string_view initial; // default as in a file, or empty
     bool is_required;
-    void (*store)(SceneItem &item, const nlohmann::json &value); // value keeps the rule
-    std::string_view option = {};                                // overrides the file
-    pt_column pt_sphere_array::*column = nullptr;                // nullptr: not for many spheres
+    void (*store)(SceneItem &item, const nlohmann::json &value); // `value` keeps the rule
+    std::string_view option = {};
+    pt_column pt_sphere_array::*column = nullptr; // nullptr if many spheres cannot have the key
 };
 
 enum class SectionForm {
@@ -53,7 +53,7 @@ struct SceneSection {
     bool may_move() const { return form != SectionForm::members || name == "camera"; }
 };
 
-// Omits `animation`, whose keys are paths.
+// Leaves out `animation`, whose keys are paths.
 std::span<const SceneSection> scene_sections();
 
 const SceneSection *find_section(std::string_view name);
@@ -61,7 +61,7 @@ const SceneKey *find_key(const SceneSection &section, std::string_view name);
 
 std::vector<std::string_view> key_names(const SceneSection &section);
 
-// text: without byte order mark. Also throws JsonRefusal.
+// `text` has no byte order mark. Also throws JsonRefusal.
 void read_sections(SceneFile &scene, std::string_view text);
 
 } // namespace pt

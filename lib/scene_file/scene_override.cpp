@@ -8,10 +8,9 @@ namespace {
 
 using nlohmann::json;
 
-// Creates a missing member.
 json &enter(json &parent, const JsonStep &step, const SceneOverride &cause) {
     if (!step.in_array && parent.is_null())
-        parent = json::object(); // just created
+        parent = json::object();
     if (step.in_array ? !parent.is_array() || step.index >= parent.size() : !parent.is_object())
         throw Error(cause.blame, cause.source + ": the scene has no " + path_text(cause.path));
     return step.in_array ? parent[step.index] : parent[step.key];

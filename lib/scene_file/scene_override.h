@@ -1,4 +1,4 @@
-// Values that replace a scene file's: a program's, or its animation's.
+// Values of a program or an animation that replace those in a scene file.
 #pragma once
 
 #include "lib/base/error.h"
@@ -17,18 +17,18 @@ inline constexpr std::size_t item_depth = 2;
 struct SceneOverride {
     JsonPath path;
     nlohmann::json value;
-    std::string source;       // shown in messages: "--set camera.vertical_fov=30"
-    pt_result blame;          // if the value is wrong
+    std::string source; // shown in messages: "--set camera.vertical_fov=30"
+    pt_result blame;
     bool is_its_name = false; // messages call the value "--spp", not by its path
 
-    // Adds missing members of objects; elements of arrays must exist. Throws `blame`.
+    // Adds missing members of objects. Elements of arrays must exist. Throws `blame`.
     void apply_to(nlohmann::json &item) const;
 
     std::string name_of(const JsonPath &part) const { return is_its_name ? source : source + ": " + path_text(part); }
 };
 
-// text: "camera.vertical_fov=30", JSON, or else a text, so names need no quotes. name: before it in messages, like
-// "--set ". Throws PT_ERROR_INVALID_ARGUMENT.
+// `text` is "camera.vertical_fov=30". The value is JSON or else a text, so names need no quotes. Messages put `name`,
+// such as "--set ", before it. Throws PT_ERROR_INVALID_ARGUMENT.
 SceneOverride parse_override(const std::string &text, const std::string &name);
 
 } // namespace pt

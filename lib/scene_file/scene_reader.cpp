@@ -1,4 +1,3 @@
-// Reads scene files, and applies overrides.
 #include "lib/scene_file/json_items.h"
 #include "lib/scene_file/names.h"
 #include "lib/scene_file/scene_keys.h"
@@ -45,7 +44,7 @@ void check_projection(const pt_camera &camera, const JsonPlace &place) {
 
 class SceneReader : public JsonItemHandler {
 public:
-    // scene: with its overrides.
+    // `scene` has its overrides.
     explicit SceneReader(SceneFile &scene) : scene_(scene) {}
 
     // Functions also throw JsonRefusal.
@@ -70,8 +69,8 @@ public:
             read_changed(place, value, changes);
     }
 
-    // Adds values that only overrides have, checks the whole file, and resolves names, since materials may follow
-    // spheres.
+    // Adds values that only overrides have, and checks the whole file. Resolves names here, because materials may
+    // follow spheres.
     void finish() {
         add_items_of_overrides();
         require_members();
@@ -263,7 +262,7 @@ private:
     }
 
     SceneFile &scene_;
-    const SceneSection *section_ = nullptr; // nullptr: `animation`
+    const SceneSection *section_ = nullptr; // nullptr in `animation`
     std::set<const SceneSection *> begun_;
     std::set<std::size_t> used_overrides_;
 

@@ -19,11 +19,11 @@ namespace pt {
 
 // Row order, little-endian.
 struct NpyArray {
-    std::string file; // its bytes; the elements begin at `first`
+    std::string file; // the elements begin at `first`
     std::size_t first = 0;
     std::uint32_t type = 0; // PT_TYPE_FLOAT32, FLOAT64, or SRGB8 for uint8
     std::size_t row_count = 0;
-    std::size_t row_length = 0; // 0: one dimension
+    std::size_t row_length = 0; // 0 for one dimension
 
     const char *data() const { return file.data() + first; }
     std::uint32_t row_bytes() const;
@@ -39,9 +39,9 @@ struct SceneKey;
 // A file with a value per sphere, or one value for all.
 struct SphereColumn {
     const SceneKey *key;
-    std::string file; // relative to the scene; empty: `value`
+    std::string file; // relative to the scene; empty if `value` is used
     std::array<double, 3> value{};
-    NpyArray array{}; // once read
+    NpyArray array{};
 
     pt_column column() const;
 };
@@ -52,16 +52,15 @@ struct SphereColumns {
     std::uint32_t material = 0;
     std::vector<SphereColumn> columns{};
 
-    void add_file(const SceneKey &key, const std::string &file, const JsonPlace &place); // throws JsonRefusal
-    void add_value(const SceneKey &key, const nlohmann::json &value);                    // value keeps the rule
+    void add_file(const SceneKey &key, const std::string &file, const JsonPlace &place);
+    void add_value(const SceneKey &key, const nlohmann::json &value); // `value` keeps the rule
 
-    pt_sphere_array spheres() const; // points into this object
+    pt_sphere_array spheres() const;
 };
 
-// Paths in the scene's order.
 std::vector<std::string> column_paths(const SceneFile &scene);
 
-// Throws PT_ERROR_FILE if a file is unreadable, PT_ERROR_INVALID_SCENE if it is unsuitable.
+// Throws PT_ERROR_FILE for an unreadable file, and PT_ERROR_INVALID_SCENE for an unsuitable one.
 void read_columns(SceneFile &scene);
 
 } // namespace pt

@@ -1,4 +1,3 @@
-// Texts of messages.
 #pragma once
 
 #include <sstream>
