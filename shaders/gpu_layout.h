@@ -234,16 +234,16 @@ struct ErrorSquares {
     float sum;          // over pixels and channels
     float pixel_shares; // sum over pixels of (pixel's square / `sum`)^2
     float tile_shares;  // sum over tiles of (tile's square / `sum`)^2
-    float part_share;   // sum over tiles of (part / sum) times (pixels / pixels of a whole tile)
+    float part_share;   // sum over tiles of (tile's square / `sum`) times (pixels / pixels of a whole tile)
 };
 
 struct TileErrors {
     ErrorSquares square;          // of (x - r)^2, in film units
-    ErrorSquares relative_square; // of (x - r)^2 / (r^2 + offset^2), times relative_scale^2, of values not met once
-    ErrorSquares met_once;        // the same for light that one part hit, with r from the other part
-    ErrorSquares as_lamps;        // the same for light that one part hit, with r = x
+    ErrorSquares relative_square; // of (x - r)^2 / (r^2 + offset^2), times relative_scale^2; excludes the next two
+    ErrorSquares met_once;        // the same quotients of light that one part alone hit, with r from the other part
+    ErrorSquares as_lamps;        // the same quotients of light that one part alone hit, with r = x
     float unseen;                 // expected square of the error from light that no sample hit
-    uint met_again;               // number of values met again (pixel_error.h)
+    uint met_again;               // number of values that both parts hit (pixel_error.h)
     uint unknown_pixels;          // pixels without samples in one of the parts
     uint lost_pixels;             // pixels that a driver lost
     uvec2 rejected;               // low word, high word

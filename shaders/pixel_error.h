@@ -109,9 +109,9 @@ PT_FUNCTION real square_as_lamp(real standard_error, real mean, real offset_squa
     return square_of_quotient(standard_error, squared(mean) + offset_square);
 }
 
-// A pixel that stands out shows a lamp or highlight, which many samples hit, or one rare bright sample. Light in only
-// one part was met once and may be either. Light in both parts was met again. lib/film/error_estimate.cpp compares the
-// numbers of both.
+// A pixel that stands out shows a lamp or highlight, which many samples hit, or one rare bright sample. Light that only
+// one part hit may be either (met once). Other bright light was hit by both parts (met again).
+// lib/film/error_estimate.cpp compares the numbers of both kinds of pixels.
 PT_FUNCTION bool is_met_once(real standard_error, real mean, real lesser)
 {
     return lesser <= 0.02 * mean && standard_error >= OF_HALVES * (mean - lesser);

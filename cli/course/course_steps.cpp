@@ -297,7 +297,7 @@ std::vector<Pattern> cosine_patterns() {
 
 constexpr std::uint32_t lamp_samples = 16;
 constexpr double most_needed = 2.0;    // samples for one of the library's
-constexpr double of_directions = 12.0; // more: lamps are only met by chance
+constexpr double of_directions = 12.0; // larger, because only chance finds lamps
 
 SceneFile lamp_scene(const char *name) {
     SceneFile scene = course_scene(name, lamp_samples, 2, PT_ESTIMATOR_LIGHT);

@@ -307,7 +307,7 @@ typedef struct pt_accumulate_info {
     pt_progress_fn progress;
     void *progress_user; /**< argument of progress */
     /** 0: none. Otherwise the call returns PT_TARGET_REACHED once pt_error_estimate.relative_rmse_high is at most this.
-     * Pixels with lamps smaller than a pixel must also have enough samples to hit them. It returns PT_OK if
+     * Pixels with lamps smaller than a pixel must also have enough samples to hit them. The call returns PT_OK if
      * sample_count runs out first, or if no pixel that it may sample is below sample_limit. Finite, >= 0.
      *
      * The error is checked when all pixels have a number of samples that pt_next_check returns. If tiles differ
@@ -316,8 +316,8 @@ typedef struct pt_accumulate_info {
     double target_error;
     uint32_t sampling; /**< PT_SAMPLING_* */
     /** The most samples of a pixel after this call and later ones, if target_error is set; otherwise 0. When the pixels
-     * that need more samples reach it, the other pixels take more, since the target is for the whole image. If it is
-     * smaller than the number that this call may reach, that number is the limit. */
+     * that need more samples reach this number, the other pixels take more, since the target is for the whole image. If
+     * sample_limit is smaller than the number that this call may reach, that number is the limit. */
     uint32_t sample_limit;
     /** NULL: all pixels get the same number, or as the target error decides. Otherwise element i is the number of
      * samples that tile i takes, 0 to sample_count. A tile takes the first samples that it lacks, from
