@@ -79,7 +79,7 @@ uvec4 fixed_point(uvec4 windows)
     return add_with_carry(add_with_carry(a, b), add_with_carry(c, d));
 }
 
-// Adds to a sum's three low words. Returns the addend of the highest word. is_first: the sum is 0 and is not read.
+// Adds to a sum's three low words. Returns the addend of the highest word. With is_first the sum is 0 and is not read.
 uint film_store_sum(uint first, uint stride, uvec4 sum, bool is_first)
 {
     uvec4 old = uvec4(0u);

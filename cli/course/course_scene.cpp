@@ -21,7 +21,7 @@ struct FloorLamp {
 
 const glm::dvec3 floor_normal = glm::dvec3(1.0, 2.0, 2.0) / 3.0;
 
-// All lie above the floor and apart from each other.
+// All lamps lie above the floor and apart from each other.
 std::array<FloorLamp, 5> floor_lamps() {
     constexpr double polar = 56.0 / 180.0 * pi;
     constexpr double beside = 25.0 / 180.0 * pi;

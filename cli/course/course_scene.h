@@ -33,7 +33,7 @@ Channels lamplight(const Turn &turn, const Weight &weight);
 // The same for directions of equal numbers in both dimensions: heights from `first` to `last`, and one full turn.
 Channels lamplight_of_equal_numbers(double first, double last);
 
-// Form factors of spheres above a plane: sin^2 a cos (Snyder 1996).
+// Exact values by form factors of spheres above a plane, sin^2 a cos (Snyder 1996).
 Channels right_lamplight();
 
 // ---- A floor under the sky ------------------------------------------------------------------------------------------
@@ -77,7 +77,7 @@ std::vector<Range> disc_values(bool moves, const std::vector<DiscSample> &sample
 
 // ---- Scenes of the course -------------------------------------------------------------------------------------------
 
-// name: of a file in cli/scenes. 64x32 pixels.
+// A file in cli/scenes has this name. The picture has 64x32 pixels.
 SceneFile course_scene(const std::string &name, std::uint32_t sample_count, std::uint32_t max_path_length,
                        std::uint32_t estimator);
 

@@ -237,7 +237,7 @@ std::vector<Measured> measure_filter(CourseKernels &kernels) {
     return disc_values(kernels.edited(disc(false)));
 }
 
-// scale and offset: of uniform places in [0, 1). is_diagonal: with the same number for both coordinates.
+// `scale` and `offset` apply to uniform places in [0, 1). With is_diagonal both coordinates have the same number.
 std::vector<DiscSample> places(double scale, double offset, bool is_diagonal = false, int times = 1) {
     constexpr int side = 16;
     std::vector<DiscSample> samples;

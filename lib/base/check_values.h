@@ -7,7 +7,7 @@
 
 namespace pt {
 
-// values: NULL only if there are none.
+// `values` may be NULL if there are none.
 inline void check_values(const Subject &subject, const char *member, const float *values, std::size_t count,
                          Rule rule) {
     if (!values && count != 0) {

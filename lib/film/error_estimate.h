@@ -49,7 +49,7 @@ bool hides_error(std::uint64_t rejected_samples, std::uint64_t samples);
 std::uint64_t next_check(std::uint64_t sample_count);
 bool is_check(std::uint64_t sample_count);
 
-// The largest factor by which the difference of the parts may overstate the error. sampler: PT_SAMPLER_*.
+// The largest factor by which the difference of the parts may overstate the error. `sampler` is a PT_SAMPLER_*.
 double exaggeration(std::uint32_t sampler);
 
 bool finds_lamps_by_chance(std::uint32_t estimator, std::uint32_t max_path_length);

@@ -47,7 +47,7 @@ public:
     void put(std::span<const std::byte> pixels);
     void put(std::span<const float> values);
 
-    // Takes consecutive pixels of an image of this width. Keeps those within the rectangle.
+    // Takes consecutive pixels of an image of this width. Keeps the pixels within the rectangle.
     void put_part(std::uint64_t first_pixel, std::uint32_t width, std::span<const float> values);
 
 private:

@@ -177,7 +177,7 @@ bool is_nearest(std::uint64_t component, long double exact) {
     return std::abs(static_cast<long double>(component) - exact) <= 0.5L + 65535.0L * 4.0L * 0x1p-52L;
 }
 
-// From the light that the curve gives for exact products: the exposure is a whole number.
+// The expected signal comes from the curve's light for exact products, because the exposure is a whole number.
 template <typename Component>
 void expect_nearest(const pt_display_info &display) {
     const std::vector<Component> pixels = pixels_of<Component>(display);

@@ -32,7 +32,7 @@ class Light:
 @dataclass(frozen=True)
 class Surroundings:
     centers: FloatArray
-    ends: FloatArray  # (n, 3); spheres have their centers here
+    ends: FloatArray  # (n, 3); equal to the centers for spheres
     radii: FloatArray
     planes: list[Plane]
     camera: FloatArray
