@@ -34,6 +34,7 @@ pt_add_tests(
   geometry/sphere_tree_test.cpp
   geometry/tree_cuts_test.cpp
   geometry/twins_test.cpp
+  kernel/gpu_layout_test.cpp
   kernel/own_kernel_clock_test.cpp
   kernel/scene_blocks_test.cpp
   kernel/scene_features_test.cpp
@@ -84,7 +85,6 @@ pt_add_tests(
   geometry/hidden_from_camera_test.cpp
   geometry/tree_path_test.cpp
   geometry/tree_test.cpp
-  kernel/gpu_layout_test.cpp
   kernel/kernel_test.cpp
   kernel/probe.cpp
   kernel/render_device_test.cpp
@@ -114,15 +114,9 @@ if(NOT PT_SANITIZE)
             geometry/intersection_test.cpp
             geometry/lens_test.cpp
             geometry/motion_test.cpp
-            geometry/negative_zero_test.cpp
-            geometry/tree_render_test.cpp
-            geometry/twins_render_test.cpp
             kernel/scene_source_test.cpp
-            light/estimator_test.cpp
             light/lamp_test.cpp
             light/lamp_tree_choice_test.cpp
-            light/lamp_tree_on_device_test.cpp
-            light/omitted_code_test.cpp
             light/opacity_test.cpp
             light/random_light_test.cpp
             light/sampler_sobol_test.cpp
@@ -142,7 +136,6 @@ foreach(
   lamp_items
   lamps
   phong_items
-  push_layout
   recurrence
   sample_numbers
   sampling_items

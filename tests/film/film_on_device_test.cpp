@@ -8,8 +8,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
-#include <cfenv>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -112,61 +110,6 @@ TEST(Film, WindowsHoldTheMostSamplesThatAnInvocationGathers) {
     }
 }
 
-// Vulkan allows rounding towards zero. llvmpipe's threads inherit the host's mode.
-class FilmRoundedToZero : public VulkanFixture {
-protected:
-    void SetUp() override {
-        std::fesetround(FE_TOWARDZERO);
-        VulkanFixture::SetUp();
-    }
-    void TearDown() override {
-        VulkanFixture::TearDown();
-        std::fesetround(FE_TONEAREST);
-    }
-
-    std::vector<std::uint32_t> sum(float value, std::uint32_t sample_count) {
-        using pt::vulkan::Buffer;
-        using pt::vulkan::BufferUse;
-        constexpr pt::vulkan::Binding bindings[] = {{0, vk::DescriptorType::eUniformBuffer}, {1}, {2}, {3}};
-        const std::array<std::uint32_t, 3> push = {sample_count, 1, 0};
-        const std::vector<glm::vec4> samples(sample_count, glm::vec4(value));
-        std::vector<std::uint32_t> words(pt::PixelSums::words_per_pixel);
-        const pt::vulkan::ComputePipeline pipeline(device(), film_sums_spirv(), bindings, sizeof push, {});
-        Buffer unused(device(), BufferUse::UniformOrStorage, 256, "unused");
-        Buffer film(device(), BufferUse::Storage, words.size() * sizeof(std::uint32_t), "film");
-        Buffer input(device(), BufferUse::Storage, samples.size() * sizeof(glm::vec4), "samples");
-        film.upload(std::as_bytes(std::span(words)), 0);
-        input.upload(std::as_bytes(std::span(samples)), 0);
-        const pt::vulkan::DescriptorSet set =
-            pipeline.bind(std::array<pt::vulkan::BufferRange, 4>{unused, unused, film, input});
-        device().submit([&](const vk::raii::CommandBuffer &commands) {
-            pipeline.dispatch(commands, set, std::as_bytes(std::span(push)), 1);
-        });
-        film.download(std::as_writable_bytes(std::span(words)), 0);
-        words.resize(pt::gpu::FILM_SUM_WORDS);
-        return words;
-    }
-
-    static std::vector<std::uint32_t> exact_sum(float value, std::uint32_t sample_count) {
-        const Wide sum = sample_count * multiple_of_2_to_minus_60(value);
-        std::vector<std::uint32_t> words;
-        for (std::uint32_t i = 0; i < pt::gpu::FILM_SUM_WORDS; ++i)
-            words.push_back(static_cast<std::uint32_t>(sum >> (32 * i)));
-        return words;
-    }
-};
-
-// The remainder for the next window is almost a whole unit. Negative control: the number of samples that remainders of
-// half a unit would allow.
-TEST_F(FilmRoundedToZero, WindowsHoldTheMostSamplesThatAnInvocationGathers) {
-    if (device().info().kind != PT_DEVICE_CPU)
-        GTEST_SKIP() << "a GPU does not round as this thread does";
-    for (const float value : {0x1.fffffep5F, 0x1.fffffep-17F}) {
-        EXPECT_EQ(sum(value, pt::gpu::FILM_MAX_GATHERED), exact_sum(value, pt::gpu::FILM_MAX_GATHERED)) << value;
-        EXPECT_NE(sum(value, 1023), exact_sum(value, 1023)) << value;
-    }
-}
-
 struct Part {
     std::uint32_t red;
     std::uint32_t accepted;
@@ -200,25 +143,6 @@ TEST(Film, LostSamplesAreAnError) {
                   pt::require_samples(one_pixel({9, 5, 0}, {9, 3, 0}).samples_of(0), {4, 4});
               }).code(),
               PT_ERROR_INTERNAL);
-}
-
-TEST(Film, SumsAddAndFold) {
-    const auto whole = [](std::uint32_t word) {
-        pt::PixelSums sums = one_pixel({0, 1, 2}, {0, 3, 4});
-        for (std::size_t plane = 0; plane < 3; ++plane)
-            sums.plane(pt::older_part, plane)[0] = word;
-        return sums;
-    };
-    pt::PixelSums sums = whole(UINT32_MAX);
-    pt::PixelSums one = one_pixel({0, 0, 0}, {0, 0, 0});
-    one.plane(pt::older_part, 0)[0] = 1;
-    sums.add(one);
-    pt::PixelSums expected = whole(0);
-    expected.plane(pt::older_part, 3)[0] = 1;
-    EXPECT_TRUE(sums == expected);
-    sums.fold_into(pt::newer_part, 0, 1);
-    EXPECT_EQ(sums.plane(pt::newer_part, 3)[0], 1U);
-    pt::require_samples(sums.samples_of(0), {0, 10});
 }
 
 TEST(Film, SumsThatNoSamplesHaveAreSeen) {

@@ -280,19 +280,6 @@ TEST_F(SavedFilm, StrangersAreRefusedAndNothingChanges) {
     }
 }
 
-// Each line would be valid alone.
-TEST_F(SavedFilm, RepeatedLinesAreRefused) {
-    Bytes film = part(12, 20);
-    set_up(context(), settings(0));
-    const std::string line = "seed 0\n";
-    const auto place = std::search(film.begin(), film.end(), line.begin(), line.end());
-    ASSERT_NE(place, film.end());
-    film.insert(place, line.begin(), line.end());
-    seal(film);
-    EXPECT_EQ(add(context(), film), PT_ERROR_INCOMPATIBLE);
-    EXPECT_EQ(pt_last_error(context()), std::string("film: lines of its header are repeated, or in another order"));
-}
-
 TEST_F(SavedFilm, CallsAreRefusedAsTheHeaderSays) {
     uint64_t size = 5;
     char byte = 'x';

@@ -1,5 +1,4 @@
-// Compares capsules with double precision. PT_TEST_MANY renders 100 random scenes.
-#include "lib/tree/tree_choice.h"
+// Compares capsules with double. Random scenes with their light are in tests/light/random_light_test.cpp.
 #include "tests/support/light_in_double.h"
 
 #include <pt/film.h>
@@ -9,7 +8,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <limits>
 #include <numbers>
 #include <string>
@@ -20,11 +18,6 @@ namespace capsules {
 namespace {
 
 using namespace light_in_double;
-
-struct Case {
-    std::string name;
-    Given given;
-};
 
 glm::dvec3 vector_of(const double (&components)[3]) {
     return {components[0], components[1], components[2]};
@@ -117,30 +110,6 @@ protected:
         return wrong;
     }
 };
-
-// Negative control: capsules that are shorter by three tenths.
-TEST_F(Capsules, HaveTheLightOfAPathTracerInDouble) {
-    std::vector<Case> cases{{"few", random_scene(1, 6, 3, 8.0)},
-                            {"from inside", inside()},
-                            {"a tree", random_scene(4, 200, 100, 8.0)},
-                            {"beside a tree", random_scene(5, 12, 120, 8.0)}};
-    for (std::uint32_t seed = 100; std::getenv("PT_TEST_MANY") && seed < 200; ++seed)
-        cases.push_back({std::to_string(seed), random_scene(seed, 1 + seed % 9 * 10, seed % 4 * 10, 4.0 + seed % 5)});
-    for (const auto &[name, given] : cases) {
-        const std::size_t count = given.capsules.size() + given.spheres.size();
-        const Blocks exact = exact_blocks(given, count > 100 ? 100 : 600);
-        EXPECT_LT(largest_error(given, exact, PT_SAMPLER_SOBOL), most_errors) << name;
-        EXPECT_TRUE(stats().features & PT_FEATURE_CAPSULES) << name;
-        EXPECT_EQ((stats().features & PT_FEATURE_TREE) != 0, count >= pt::tree_of_others_from) << name;
-        if (name != "few")
-            continue;
-        Given shorter = given;
-        for (Given::Capsule &rod : shorter.capsules)
-            for (int axis = 0; axis < 3; ++axis)
-                rod.end[axis] += 0.3 * (rod.center[axis] - rod.end[axis]);
-        EXPECT_GT(largest_error(shorter, exact, PT_SAMPLER_SOBOL), most_errors);
-    }
-}
 
 double difference(const std::vector<float> &a, const std::vector<float> &b) {
     double differences = 0.0;

@@ -53,12 +53,6 @@ struct InvarianceScene {
                 component *= factor;
     }
 
-    void multiply_diffuse(float factor) {
-        for (pt_material &material : materials)
-            for (float &component : material.diffuse)
-                component *= factor;
-    }
-
     void scale(double factor) {
         for (pt_sphere &sphere : spheres) {
             sphere.radius *= factor;
@@ -112,10 +106,5 @@ struct InvarianceScene {
             sphere.material = last - sphere.material;
         for (pt_plane &plane : planes)
             plane.material = last - plane.material;
-    }
-
-    void reverse_objects() {
-        std::ranges::reverse(spheres);
-        std::ranges::reverse(planes);
     }
 };

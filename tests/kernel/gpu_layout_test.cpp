@@ -1,33 +1,15 @@
 #include "lib/kernel/gpu_scene.h"
 #include "lib/scene/seen_scene.h"
-#include "push_layout.spv.h"
-#include "tests/kernel/probe.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 #include <vector>
 
-namespace {
+namespace gpu_layout {
 
-TEST(GpuLayout, KernelReadsEachPushConstantWhereTheHostWritesIt) {
-    pt::gpu::FrameConstants frame{};
-    frame.camera = {{1, 2, 3}, 4, {5, 6, 7}, 8, {9, 10, 11}, 12, 25, 26, {27, 28}};
-    frame.seed = {13, 14};
-    frame.film_scale = 15;
-    frame.film_first_pixel = 16;
-    frame.strip_first_pixel = 17;
-    frame.strip_pixel_count = 18;
-    frame.first_entry = 19;
-    frame.film_part = 20;
-    frame.is_first = 21;
-    frame.first_sample = 22;
-    frame.sample_count = 23;
-    frame.share = 24;
-    const auto seen = Probe(push_layout_spirv(), sizeof frame).run<float>({}, 28, frame, 1);
-    for (int i = 0; i < 28; ++i)
-        EXPECT_EQ(seen[static_cast<std::size_t>(i)], static_cast<float>(i + 1));
-}
+namespace {
 
 pt::Camera camera_at(glm::dvec3 position) {
     return {position, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, 0.25, 0.75};
@@ -115,4 +97,30 @@ TEST(GpuLayout, TheFilmUnitFollowsTheBrightestLampInUse) {
     EXPECT_EQ(pt::PreparedScene(scene).film_unit, 1.0); // unused materials do not count
 }
 
+// The film rejects light with a sign.
+TEST(GpuLayout, NegativeZerosAreZeros) {
+    const auto words_with = [](float zero) {
+        pt::Scene scene = small_scene();
+        for (pt::Material &material : scene.materials)
+            for (glm::vec3 *color : {&material.diffuse, &material.specular, &material.emission})
+                for (int channel = 0; channel < 3; ++channel)
+                    if ((*color)[channel] == 0.0F)
+                        (*color)[channel] = zero;
+        return gpu_scene_of(scene, camera_at({0, 0, 1})).words;
+    };
+    const std::vector<glm::vec4> words = words_with(-0.0F);
+    const std::vector<glm::vec4> expected = words_with(0.0F);
+    ASSERT_EQ(words.size(), expected.size());
+    int zeros = 0;
+    for (std::size_t i = 0; i < words.size(); ++i)
+        for (int k = 0; k < 4; ++k)
+            if (expected[i][k] == 0.0F) {
+                ++zeros;
+                EXPECT_EQ(std::signbit(words[i][k]), std::signbit(expected[i][k])) << i << ", " << k;
+            }
+    EXPECT_GT(zeros, 5);
+}
+
 } // namespace
+
+} // namespace gpu_layout

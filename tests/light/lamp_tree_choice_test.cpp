@@ -1,19 +1,111 @@
-#include "tests/light/lamp_tree_probe.h"
-#include "tests/light/lamp_tree_reference.h"
+#include "lamps.spv.h"
+#include "lib/kernel/gpu_scene.h"
+#include "lib/kernel/scene_blocks.h"
+#include "shaders/specialization.h"
+#include "tests/kernel/probe.h"
 #include "tests/support/lamp_scenes.h"
 #include "tests/support/statistics.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace {
 
+struct TreeVertex {
+    glm::vec3 position;
+    glm::vec3 normal;
+    float time = 0.0F;
+    std::uint32_t surface = 0xffffffffU;
+};
+
+// The output of lamps.comp.
+struct TreeDrawn {
+    glm::vec3 direction;
+    float distance;
+    std::uint32_t lamp;
+    float density;
+    float hit_density;
+    float probability;
+};
+
+class TreeProbe {
+public:
+    explicit TreeProbe(const pt::GpuScene &scene) :
+        lamp_count_(scene.features[pt::gpu::ID_LAMP_COUNT]),
+        probe_(lamps_spirv(), sizeof(Push), constants(scene)) {
+        probe_.set_scene(scene.words);
+    }
+
+    std::vector<TreeDrawn> draw(const TreeVertex &vertex, std::uint32_t count, std::uint32_t seed = 1) {
+        const Push push{glm::vec4(vertex.position, 0), glm::vec4(vertex.normal, vertex.time), vertex.surface, seed,
+                        lamp_count_ + count};
+        return probe_.run<TreeDrawn>({}, push.count, push, push.count);
+    }
+
+    std::vector<double> probabilities(const TreeVertex &vertex) {
+        std::vector<double> result;
+        for (const TreeDrawn &stated : draw(vertex, 0))
+            result.push_back(static_cast<double>(stated.probability));
+        return result;
+    }
+
+private:
+    struct Push {
+        glm::vec4 position, normal_time;
+        std::uint32_t surface, seed, count;
+    };
+
+    static std::array<std::uint32_t, pt::gpu::CONSTANT_COUNT> constants(const pt::GpuScene &scene) {
+        auto constants = pt::specialization_constants(scene.features);
+        constants[pt::gpu::ID_POINT_BLOCKS] = probe_point_blocks;
+        return constants;
+    }
+
+    std::uint32_t lamp_count_;
+    Probe probe_;
+};
+
+std::vector<TreeVertex> tree_vertices(const pt::GpuScene &scene) {
+    const glm::vec3 lamp(scene.words[scene.features[pt::gpu::ID_LAMP_COUNT] / 2]);
+    const float radius = scene.words[scene.features[pt::gpu::ID_LAMP_COUNT] / 2].w;
+    const glm::vec3 oblique = glm::normalize(glm::vec3(2, -1, 0.5F));
+    return {{{0, 0, 0}, {0, 1, 0}, 0.0F},
+            {{7, 0, -3}, {0, 1, 0}, 0.375F},
+            {{-4, 3, 2}, oblique, 1.0F},
+            {{1, 5, -6}, {0, -1, 0}, 0.5F},
+            {{0, -50, 0}, {0, 1, 0}, 0.25F},
+            {{0, -50, 0}, {0, -1, 0}, 0.25F},
+            {{400, 300, 5}, -glm::normalize(glm::vec3(4, 3, 0)), 0.75F},
+            {lamp + 1.5F * radius * glm::vec3(0, 0, 1), {0, 0.6F, -0.8F}, 0.0F},
+            {lamp, {0, 0, 1}, 0.0F, scene.features[pt::gpu::ID_LAMP_COUNT] / 2}};
+}
+
+std::vector<double> lamp_weights(const pt::GpuScene &scene, const TreeVertex &vertex) {
+    std::vector<double> weights;
+    const pt::SceneBlocks blocks(scene.features);
+    for (std::uint32_t lamp = 0; lamp < scene.features[pt::gpu::ID_LAMP_COUNT]; ++lamp) {
+        glm::dvec3 to = glm::dvec3(glm::vec3(scene.words[lamp])) - glm::dvec3(vertex.position);
+        if (scene.features[pt::gpu::ID_MOTION])
+            to += double{vertex.time} * glm::dvec3(glm::vec3(scene.words[blocks.motion + lamp]));
+        const double radius = double{scene.words[lamp].w};
+        const double distance = glm::length(to);
+        const double cosine = std::min(1.0, (glm::dot(to, glm::dvec3(vertex.normal)) + radius) / distance);
+        const bool sampled = distance > radius && cosine > 0.0 && lamp != vertex.surface;
+        const double radiance = double{scene.words[blocks.emission + lamp].w};
+        weights.push_back(sampled ? radiance * std::pow(radius / distance, 2) * cosine : 0.0);
+    }
+    return weights;
+}
+
+// Lamps with fewer than 20 expected choices share a cell.
 struct Frequencies {
     std::vector<double> observed, expected, wrong;
 };
@@ -73,11 +165,56 @@ TEST(LampTreeChoice, FollowsTheStatedProbability) {
             SCOPED_TRACE(name);
             const std::vector<TreeDrawn> drawn = probe.draw(vertex, 1U << 16, seed++);
             expect_what_is_stated(drawn, lamp_weights(gpu_scene, vertex));
+            double sum = 0.0;
+            for (std::uint32_t lamp = 0; lamp < lamp_count; ++lamp)
+                sum += static_cast<double>(drawn[lamp].probability);
+            EXPECT_NEAR(sum, 1.0, 64 * 0x1p-24) << "a few roundings per level";
             const Frequencies cells = frequencies(drawn, lamp_count);
             EXPECT_LT(statistics::chi_square_deviate(cells.observed, cells.expected), bound) << seed;
             EXPECT_GT(statistics::chi_square_deviate(cells.observed, cells.wrong), bound)
                 << "probabilities wrong by 10% must show";
         }
+    }
+}
+
+// Returns sum (w^2 / P) / (sum w)^2 - 1. It is 0 for weights alone, at most 1 / 9 with the uniform share, and 9 by
+// power alone.
+double relative_variance(TreeProbe &probe, const pt::GpuScene &scene, const TreeVertex &vertex) {
+    const std::vector<double> weights = lamp_weights(scene, vertex);
+    const std::vector<double> probabilities = probe.probabilities(vertex);
+    double sum = 0.0;
+    double squares = 0.0;
+    for (std::size_t lamp = 0; lamp < weights.size(); ++lamp) {
+        sum += weights[lamp];
+        squares += weights[lamp] * weights[lamp] / probabilities[lamp];
+    }
+    return squares / (sum * sum) - 1.0;
+}
+
+double median(std::vector<double> values) {
+    std::ranges::sort(values);
+    return values[values.size() / 2];
+}
+
+TEST(LampTreeChoice, AreSharp) {
+    for (const double motion : {0.0, 3.0}) {
+        const pt::GpuScene scene = lamp_scenes::gpu_scene(lamp_scenes::in_a_box(10000, 8, motion));
+        TreeProbe probe(scene);
+        std::vector<double> on_ground;
+        std::vector<double> in_midair;
+        for (int i = 0; i < 25; ++i) {
+            const glm::vec3 place(3.5F * static_cast<float>(i % 5 - 2), 0, 3.5F * static_cast<float>(i / 5 - 2));
+            const auto angle = static_cast<float>(i);
+            const glm::vec3 normal = glm::normalize(glm::vec3(std::cos(angle), std::sin(2 * angle), std::sin(angle)));
+            on_ground.push_back(relative_variance(probe, scene, {place, {0, 1, 0}, 0.5F}));
+            in_midair.push_back(relative_variance(probe, scene, {place + glm::vec3(0, 4, 0), normal, 0.5F}));
+        }
+        EXPECT_LT(median(on_ground), 0.25) << motion;
+        EXPECT_LT(statistics::moments(on_ground).mean, 0.4) << motion;
+        EXPECT_LT(median(in_midair), 0.6) << motion;
+        RecordProperty("relative_variance_" + std::to_string(motion > 0.0),
+                       std::to_string(median(on_ground)) + " / " + std::to_string(statistics::moments(on_ground).mean) +
+                           ", " + std::to_string(median(in_midair)));
     }
 }
 

@@ -235,46 +235,6 @@ TEST_F(Opacity, LeavesPlanesOpaque) {
     EXPECT_EQ(std::ranges::count(radiance, 0.0F), static_cast<std::ptrdiff_t>(radiance.size()));
 }
 
-Given sticks() {
-    Given given;
-    given.camera = camera_at({0, 0, 8}, {0, 0, 0}, 0.5);
-    given.spheres.push_back({{3, 5, 1}, 1.5, {0, 0, 0}, 2, 0});
-    const auto atom = [](int i) { return glm::dvec3(0.5 * i - 1.75, i % 2 == 0 ? -0.4 : 0.4, 0.3 * (i % 3)); };
-    for (int i = 0; i < 8; ++i) {
-        given.capsules.push_back(rod(atom(i), atom(i), 0.4F, 0));
-        for (const int neighbor : {i - 1, i + 1})
-            if (neighbor >= 0 && neighbor < 8)
-                given.capsules.push_back(rod(atom(i), 0.5 * (atom(i) + atom(neighbor)), 0.4F, 0));
-    }
-    for (Given::Capsule &each : given.capsules)
-        each.radius = 0.3;
-    return given;
-}
-
-Given opaque_sticks() {
-    Given given;
-    given.camera = camera_at({2, 0, 6.7}, {0, 0, 0}, 0.6);
-    given.spheres.push_back({{3, 5, 1}, 1.5, {0, 0, 0}, 2, 0});
-    const glm::dvec3 atom(1.3, -0.1, 0.3);
-    given.capsules = {rod(atom, {-0.8, 0.5, -0.8}, 1.0F), rod(atom, {-0.2, -1.0, -1.8}, 1.0F),
-                      rod({0.8, -0.5, 0.9}, {-0.3, 0.3, 1.0}, 0.67F)};
-    for (Given::Capsule &each : given.capsules)
-        each.radius = 0.3;
-    return given;
-}
-
-// Negative control: opacities larger by a third.
-TEST_F(Opacity, HasTheLightOfAPathTracerInDouble) {
-    for (const Given &given : {shells(), sticks(), opaque_sticks()}) {
-        const Blocks exact = exact_blocks(given, 1200);
-        EXPECT_LT(largest_error(given, exact, PT_SAMPLER_SOBOL), most_errors);
-        Given denser = given;
-        for (Given::Capsule &each : denser.capsules)
-            each.opacity = std::min(each.opacity * 4.0F / 3.0F, 1.0F);
-        EXPECT_GT(largest_error(denser, exact, PT_SAMPLER_SOBOL), most_errors);
-    }
-}
-
 TEST_F(Opacity, LeavesNoBitToChance) {
     const Given given = cloud(60);
     const std::vector<float> whole = image(given, 16);

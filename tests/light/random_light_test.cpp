@@ -2,6 +2,7 @@
 // of scene has one in a tree and one in a list.
 #include "tests/support/batch_fixture.h"
 #include "tests/support/light_in_double.h"
+#include "tests/support/numbers_of.h"
 #include "tests/support/shared_context.h"
 
 #include <algorithm>
@@ -22,7 +23,7 @@ constexpr std::uint32_t material_count = 4;
 constexpr std::uint32_t lamp = 2;
 constexpr std::uint32_t glossy = 3;
 
-enum Kind { mixed, parallel, hidden, nested, moving, spots, twins, weak_estimators, veiled, kind_count };
+enum Kind { mixed, parallel, hidden, nested, moving, spots, twins, estimators, veiled, kind_count };
 constexpr const char *kind_names[] = {"mixed", "parallel", "hidden",     "nested", "moving",
                                       "spots", "twins",    "estimators", "veiled"};
 
@@ -53,14 +54,12 @@ public:
         Picture picture{static_cast<Kind>(seed_ % kind_count), (seed_ + seed_ / kind_count) % 2 == 1, {}, {}, {}};
         picture.render = picture_of(seed_ / kind_count % 4);
         picture.render.max_path_length = picture.kind == spots ? 3 + seed_ % 3 : 2 + whole(3);
-        if (picture.kind == weak_estimators)
-            picture.render.estimator = 1 + seed_ / kind_count % 5;
         Given &given = picture.given;
         set_materials(given, picture.kind);
         add_balls(given, picture.kind);
         // Some estimators find lamps only by chance. They are compared only where this is frequent, because no bound
         // fits skewed noise.
-        if (picture.kind == hidden || picture.kind == weak_estimators || chance(0.4))
+        if (picture.kind == hidden || picture.kind == estimators || chance(0.4))
             given.spheres.push_back({{0, 0, 0}, uniform(15, 30), {0, 0, 0}, perhaps_hidden(picture.kind, lamp), 0});
         given.planes[0].material = perhaps_hidden(picture.kind, 1);
         if (picture.kind == hidden)
@@ -89,7 +88,7 @@ private:
     }
 
     void set_materials(Given &given, Kind kind) {
-        const double exponent = kind == weak_estimators ? decades(0, 1.3) : decades(0, kind == spots ? 4 : 3);
+        const double exponent = kind == estimators ? decades(0, 1.3) : decades(0, kind == spots ? 4 : 3);
         given.materials.push_back({{0.2F, 0.1F, 0.1F}, {0.5F, 0.6F, 0.7F}, {0, 0, 0}, static_cast<float>(exponent), 0});
         for (pt_material material : std::vector(given.materials)) {
             material.flags = PT_MATERIAL_HIDDEN_FROM_CAMERA;
@@ -165,7 +164,7 @@ private:
             camera.vertical_extent = decades(-1, 0.8);
         } else {
             camera.vertical_fov = chance(0.3) ? decades(-5, -1) : 0.8;
-            camera.aperture = kind == veiled ? uniform(0, 0.5) : 0.0;
+            camera.aperture = kind == veiled || kind == mixed ? uniform(0, 0.5) : 0.0;
         }
         if (kind == hidden && chance(0.4)) {
             pt_sphere about{{0, 0, 0}, uniform(0.5, 5), {0, 0, 0}, material_count + (chance(0.5) ? lamp : 0), 0};
@@ -191,8 +190,8 @@ protected:
         LightInDouble::TearDown();
     }
 
-    Deviation deviation_of(const Picture &picture, const Given &given, const Blocks &exact) {
-        return deviation(picture.has_tree ? with_tree_.get() : context(), given, exact, picture.render);
+    Deviation deviation_of(const Picture &picture, const Given &given, const Blocks &exact, const pt_render &render) {
+        return deviation(picture.has_tree ? with_tree_.get() : context(), given, exact, render);
     }
 
     // The sum of deviations over the standard deviation of Student's t with 11 degrees of freedom. It is clamped for
@@ -222,11 +221,25 @@ Given turned(const Picture &picture) {
     return other;
 }
 
+// Returns the picture with every estimator, which take turns with all samplers. The other kinds have one of each.
+std::vector<pt_render> renders_of(const Picture &picture, std::uint32_t seed) {
+    if (picture.kind != estimators)
+        return {picture.render};
+    const std::vector<std::uint32_t> samplers = numbers_of(&pt_render::sampler);
+    std::vector<pt_render> renders;
+    for (const std::uint32_t estimator : numbers_of(&pt_render::estimator)) {
+        renders.push_back(picture.render);
+        renders.back().estimator = estimator;
+        renders.back().sampler = samplers[(seed + estimator) % samplers.size()];
+    }
+    return renders;
+}
+
 // The bounds allow one false alarm in a thousand runs for images and blocks, and one in ten thousand for all together.
 // Negative controls are lobes with 3% more in one scene of each kind. With trees, lamps that are 3% brighter and
 // another view are further controls.
 TEST_F(RandomLight, IsThatOfAPathTracerInDouble) {
-    const double bound = student_bound(1e-3 / (14.0 * scene_count()), image_count);
+    const double bound = student_bound(1e-3 / (28.0 * scene_count()), image_count); // at most two renders a scene
     std::vector<double> deviations;
     std::vector<double> brighter;
     std::vector<double> glossier;
@@ -236,27 +249,32 @@ TEST_F(RandomLight, IsThatOfAPathTracerInDouble) {
     for (std::uint32_t seed = first; seed < first + scene_count(); ++seed) {
         const Picture picture = RandomPicture(seed).made();
         const Blocks exact = exact_blocks(picture.expected, 400, picture.render);
-        const Deviation found = deviation_of(picture, picture.given, exact);
-        EXPECT_LT(std::max(std::abs(found.of_image), found.largest), bound)
-            << "scene " << seed << ": " << picture.name() << ", estimator " << picture.render.estimator << ", "
-            << picture.render.max_path_length << " vertices: image " << found.of_image << ", block " << found.largest;
-        deviations.push_back(found.of_image);
-        squares += found.of_image * found.of_image;
-        if (std::getenv("PT_TEST_SCENES"))
-            std::printf("%u %s e%u L%u %.2f %.2f\n", seed, picture.name().c_str(), picture.render.estimator,
-                        picture.render.max_path_length, found.of_image, found.largest);
+        for (const pt_render &render : renders_of(picture, seed)) {
+            const Deviation found = deviation_of(picture, picture.given, exact, render);
+            EXPECT_LT(std::max(std::abs(found.of_image), found.largest), bound)
+                << "scene " << seed << ": " << picture.name() << ", estimator " << render.estimator << ", sampler "
+                << render.sampler << ", " << render.max_path_length << " vertices: image " << found.of_image
+                << ", block " << found.largest;
+            deviations.push_back(found.of_image);
+            squares += found.of_image * found.of_image;
+            if (std::getenv("PT_TEST_SCENES"))
+                std::printf("%u %s e%u L%u %.2f %.2f\n", seed, picture.name().c_str(), render.estimator,
+                            render.max_path_length, found.of_image, found.largest);
+        }
         if (seed >= kind_count)
             continue;
-        glossier.push_back(deviation_of(picture, with_more(picture, &pt_material::specular), exact).of_image);
+        glossier.push_back(
+            deviation_of(picture, with_more(picture, &pt_material::specular), exact, picture.render).of_image);
         if (!picture.has_tree)
             continue;
-        brighter.push_back(deviation_of(picture, with_more(picture, &pt_material::emission), exact).of_image);
-        of_turned = std::max(of_turned, deviation_of(picture, turned(picture), exact).largest);
+        brighter.push_back(
+            deviation_of(picture, with_more(picture, &pt_material::emission), exact, picture.render).of_image);
+        of_turned = std::max(of_turned, deviation_of(picture, turned(picture), exact, picture.render).largest);
     }
     const double bound_of_all = statistics::normal_quantile(0.5e-4);
     std::printf("rms %.2f, pooled %.2f, bound %.1f; brighter %.1f, glossier %.1f, turned %.1f\n",
-                std::sqrt(squares / scene_count()), pooled(deviations), bound, pooled(brighter), pooled(glossier),
-                of_turned);
+                std::sqrt(squares / static_cast<double>(deviations.size())), pooled(deviations), bound,
+                pooled(brighter), pooled(glossier), of_turned);
     EXPECT_LT(std::abs(pooled(deviations)), bound_of_all);
     if (first > 0)
         return;

@@ -1,4 +1,5 @@
 #include "tests/light/sample_numbers.h"
+#include "tests/support/numbers_of.h"
 
 #include <gtest/gtest.h>
 
@@ -93,14 +94,8 @@ TEST(SamplerRandom, BranchesAreSamplesOfTheirOwn) {
     EXPECT_NE(branch_of(0x40000000U, 3), sample(3));
 }
 
-std::string name_of(const testing::TestParamInfo<std::uint32_t> &info) {
-    constexpr const char *names[] = {"", "Random", "Halton", "HaltonCp", "Sobol"};
-    return names[info.param];
-}
-
-INSTANTIATE_TEST_SUITE_P(All, Sampler,
-                         testing::Values(PT_SAMPLER_RANDOM, PT_SAMPLER_HALTON, PT_SAMPLER_HALTON_CP, PT_SAMPLER_SOBOL),
-                         &name_of);
+INSTANTIATE_TEST_SUITE_P(All, Sampler, testing::ValuesIn(numbers_of(&pt_render::sampler)),
+                         [](const auto &info) { return "Number" + std::to_string(info.param); });
 
 TEST(SamplerHalton, IsTheRadicalInverseInEveryPixel) {
     Request request;
