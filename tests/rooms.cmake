@@ -65,7 +65,6 @@ pt_add_tests(
   api/kept_kernels_test.cpp
   api/log_test.cpp
   api/polling_test.cpp
-  api/rounding_test.cpp
   api/set_scene_test.cpp
   api/struct_size_test.cpp
   film/adaptive_test.cpp
@@ -82,10 +81,6 @@ pt_add_tests(
   film/split_over_devices_test.cpp
   film/unknown_error_test.cpp
   geometry/first_hit_test.cpp
-  geometry/hidden_from_camera_test.cpp
-  geometry/tree_path_test.cpp
-  geometry/tree_test.cpp
-  kernel/kernel_test.cpp
   kernel/probe.cpp
   kernel/render_device_test.cpp
   kernel/trace_pipelines_test.cpp
@@ -95,6 +90,7 @@ pt_add_tests(
   vulkan/own_vulkan_test.cpp
   vulkan/submission_test.cpp
 )
+set(kernels film_sums recurrence)
 # What the kernel computes. Not with sanitizers: these spend their minutes in the kernel and the driver, not in this code.
 if(NOT PT_SANITIZE)
   target_sources(
@@ -109,11 +105,16 @@ if(NOT PT_SANITIZE)
             accuracy/phong_test.cpp
             accuracy/sampling_test.cpp
             accuracy/vertex_test.cpp
+            api/rounding_test.cpp
             geometry/capsule_test.cpp
             geometry/first_hit_random_test.cpp
+            geometry/hidden_from_camera_test.cpp
             geometry/intersection_test.cpp
             geometry/lens_test.cpp
             geometry/motion_test.cpp
+            geometry/tree_path_test.cpp
+            geometry/tree_test.cpp
+            kernel/kernel_test.cpp
             kernel/scene_source_test.cpp
             light/lamp_test.cpp
             light/lamp_tree_choice_test.cpp
@@ -123,26 +124,26 @@ if(NOT PT_SANITIZE)
             light/sampler_test.cpp
             light/spot_test.cpp
   )
+  list(
+    APPEND
+    kernels
+    accuracy_skips
+    camera_items
+    distance_items
+    integer_items
+    intersection
+    lamp_items
+    lamps
+    phong_items
+    sample_numbers
+    sampling_items
+    spots
+    vertex_items
+  )
 endif()
 target_precompile_headers(pt_device_tests REUSE_FROM pt_host_tests)
-foreach(
-  probe
-  accuracy_skips
-  camera_items
-  distance_items
-  film_sums
-  integer_items
-  intersection
-  lamp_items
-  lamps
-  phong_items
-  recurrence
-  sample_numbers
-  sampling_items
-  spots
-  vertex_items
-)
-  pt_embed_shader(pt_device_tests ${CMAKE_CURRENT_SOURCE_DIR}/kernel/probe/${probe}.comp)
+foreach(kernel IN LISTS kernels)
+  pt_embed_shader(pt_device_tests ${CMAKE_CURRENT_SOURCE_DIR}/kernel/probe/${kernel}.comp)
 endforeach()
 if(TARGET pt-glsl)
   target_sources(pt_device_tests PRIVATE api/reload_test.cpp kernel/shader_source_test.cpp)
@@ -154,13 +155,13 @@ if(TARGET pt-glsl)
   add_dependencies(pt_device_tests pt-glsl)
 endif()
 # What is quick, and all else in two halves, which are among the first.
-set(quick "ApiTest.*:ExactnessTest.*:Film.*:Resolve.*")
+set(quick "ApiTest.*:SplitIntoCalls.*:Film.*:Resolve.*")
 add_test(NAME device.quick COMMAND ${pt_leak_checked} $<TARGET_FILE:pt_device_tests> --gtest_filter=${quick})
 set_tests_properties(device.quick PROPERTIES LABELS quick)
 # With sanitizers without what takes a second or more in the kernel and the compiler of its driver, and reaches nothing of the
 # library that others do not.
 if(PT_SANITIZE)
-  string(APPEND quick ":AdaptiveTest.EachTile*:EstimateTest.*ThatOfTheHost:FirstHit.Is*:Hidden*:KernelTest.*:Rounding*:Tree.*:WalkSteps.*")
+  string(APPEND quick ":AdaptiveTest.EachTile*:EstimateTest.*ThatOfTheHost:FirstHit.Is*")
   set(fewer ";PT_TEST_SPLITS=1")
 endif()
 set(rest "GTEST_FILTER=-${quick};GTEST_TOTAL_SHARDS=2${fewer}")

@@ -47,20 +47,6 @@ TEST_F(ApiTest, AccuracyWritesAtMostCountRows) {
     }
 }
 
-TEST_F(ApiTest, AccuracyChangesNothing) {
-    set_all();
-    accumulate(3);
-    const pt_stats before = stats();
-    std::vector<pt_function_accuracy> rows(more_than_all);
-    uint32_t count = more_than_all;
-    ASSERT_EQ(pt_get_accuracy(context(), rows.data(), &count), PT_OK) << message();
-    const pt_stats after = stats();
-    EXPECT_EQ(std::memcmp(&before, &after, sizeof before), 0);
-    expect_image(3);
-    accumulate(2);
-    expect_image(5);
-}
-
 } // namespace
 
 } // namespace api

@@ -131,23 +131,6 @@ TEST_F(PollingTest, CancellingKeepsWholeSamplesAndTheContextGoesOn) {
     }
 }
 
-TEST_F(PollingTest, AfterACancellationTheCameraMayMove) {
-    const Pixels expected = accumulated(3);
-    const Context on = context_for({1, 1, true});
-    pt_camera aside = CourseworkScene::camera();
-    const pt_camera camera = CourseworkScene::camera();
-    aside.position[0] = 2;
-    ASSERT_EQ(pt_set_camera(on.get(), &aside), PT_OK) << pt_last_error(on.get());
-    ASSERT_EQ(start(on.get(), 1'000'000), PT_PENDING) << pt_last_error(on.get());
-    EXPECT_EQ(pt_poll(on.get(), 0, nullptr), PT_PENDING);
-    EXPECT_EQ(pt_set_camera(on.get(), &camera), PT_ERROR_INVALID_STATE);
-    EXPECT_EQ(pt_cancel(on.get()), PT_OK);
-    EXPECT_EQ(end_of(on.get(), {0}), PT_CANCELLED);
-    ASSERT_EQ(pt_set_camera(on.get(), &camera), PT_OK) << pt_last_error(on.get());
-    take(on.get(), 3, {0});
-    EXPECT_EQ(image_of(on.get()), expected);
-}
-
 // Cancelling completes a sample that some tiles have begun. The error is checked at the same counts as without, and
 // never while slices run.
 TEST_F(PollingTest, ATargetIsReachedAtTheSameCount) {

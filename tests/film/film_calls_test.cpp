@@ -182,31 +182,6 @@ TEST(FilmCalls, ReadImages) {
     EXPECT_EQ(pt_get_broken_rule(nullptr, 0, nullptr), 1U);
 }
 
-TEST(FilmCalls, TheErrorIsKnownOfEnoughSamplesAlone) {
-    film_maker::Samples samples = two_tiles();
-    auto stats = sized_struct<pt_stats>();
-    auto error = sized_struct<pt_error_estimate>();
-    ASSERT_EQ(pt_get_film_stats(opened(bytes_of(samples)).get(), &stats), PT_OK);
-    ASSERT_EQ(pt_get_film_error_estimate(opened(bytes_of(samples)).get(), &error), PT_OK);
-    EXPECT_EQ(stats.sample_count, 3U);
-    EXPECT_TRUE(std::isinf(error.rmse));
-    std::uint64_t rejected = 0;
-    for (auto &[pixel, indices] : samples) {
-        for (std::uint32_t i = 0; i < 18; ++i)
-            indices.insert(i);
-        for (const std::uint32_t index : indices)
-            rejected += film_maker::is_rejected(pixel, index) ? 1 : 0;
-    }
-    ASSERT_EQ(pt_get_film_stats(opened(bytes_of(samples)).get(), &stats), PT_OK);
-    EXPECT_EQ(stats.sample_count, 18U);
-    EXPECT_EQ(stats.rejected_samples, rejected);
-    ASSERT_EQ(pt_get_film_error_estimate(opened(bytes_of(samples)).get(), &error), PT_OK);
-    EXPECT_TRUE(std::isinf(error.rmse)) << "so many were rejected";
-    samples.erase({2, 1});
-    ASSERT_EQ(pt_get_film_stats(opened(bytes_of(samples)).get(), &stats), PT_OK);
-    EXPECT_EQ(stats.sample_count, 0U);
-}
-
 TEST(FilmCalls, WriteWhatTheyRead) {
     const film_maker::Bytes bytes = bytes_of(two_tiles());
     const OpenedFilm film = opened(bytes);

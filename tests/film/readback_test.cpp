@@ -160,17 +160,4 @@ TEST_F(ReadbackTest, MappedImagesHaveNoMemoryOfTheCallers) {
     EXPECT_STREQ(pt_last_error(context()), "data = NULL: must not be NULL");
 }
 
-TEST_F(ReadbackTest, RectanglesMustLieWithinWhatIsRendered) {
-    render(context());
-    std::vector<float> pixels(std::size_t{3} * whole_width * whole_height);
-    pt_image target = image_target(pixels);
-    target.y = whole_height - 1;
-    target.width = 1;
-    target.height = 1;
-    EXPECT_EQ(pt_readback(context(), &target), PT_OK) << pt_last_error(context());
-    target.y = whole_height;
-    EXPECT_EQ(pt_readback(context(), &target), PT_ERROR_INVALID_ARGUMENT);
-    EXPECT_STREQ(pt_last_error(context()), "image.y + height = 41: must be <= 40");
-}
-
 } // namespace

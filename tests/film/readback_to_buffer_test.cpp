@@ -203,7 +203,7 @@ TEST_F(ReadbackToBufferTest, WithASemaphoreToSignalTheHostDoesNotWait) {
         image.format = PT_FORMAT_RGBA16F;
         image.signal_semaphore = handle_of(after);
         {
-            const Gate gate(caller_->device());
+            const HeldWork gate(caller_->device());
             submit([&](const vk::raii::CommandBuffer &commands) { gate.record(commands); }, {}, {});
             ASSERT_EQ(pt_readback_to_buffer(context(), &image), PT_OK) << pt_last_error(context());
             EXPECT_TRUE(buffer_->bytes() == untouched_buffer());
@@ -272,7 +272,7 @@ TEST_F(ReadbackToBufferTest, LaterSamplesDoNotChangeIt) {
         image.signal_semaphore = handle_of(after);
         const pt_accumulate_info more{sizeof more, 40, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
         {
-            const Gate gate(caller_->device());
+            const HeldWork gate(caller_->device());
             submit([&](const vk::raii::CommandBuffer &commands) { gate.record(commands); }, {}, {});
             ASSERT_EQ(pt_readback_to_buffer(context(), &image), PT_OK) << pt_last_error(context());
             ASSERT_EQ(pt_start(context(), &more), PT_PENDING) << pt_last_error(context());

@@ -178,24 +178,6 @@ TEST_F(SavedFilm, AContextGoesOnWithTheSamplesThatAreMissing) {
     EXPECT_FALSE(whole(99) == expected);
 }
 
-TEST_F(SavedFilm, FilmsReachToTheLastIndex) {
-    constexpr uint32_t first_of_last = UINT32_MAX - 39;
-    const Bytes early = part(0, 30);
-    set_up(context(), settings(first_of_last));
-    accumulate_on(context(), 40);
-    const Bytes last = film_of(context());
-    ASSERT_EQ(add(context(), early), PT_OK) << pt_last_error(context());
-    const Picture expected = picture_of(context());
-    set_up(context(), settings(first_of_last));
-    accumulate_on(context(), 17);
-    ASSERT_EQ(add(context(), early), PT_OK) << pt_last_error(context());
-    EXPECT_EQ(add(context(), last), PT_ERROR_INCOMPATIBLE);
-    accumulate_on(context(), 23);
-    EXPECT_TRUE(picture_of(context()) == expected);
-    const pt_accumulate_info one{sizeof one, 1, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
-    EXPECT_EQ(pt_accumulate(context(), &one), PT_ERROR_INVALID_ARGUMENT);
-}
-
 TEST_F(SavedFilm, RowsAreFilmsOfTheirOwn) {
     pt_render rows = settings(0);
     rows.first_row = 3;

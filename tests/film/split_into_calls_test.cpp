@@ -22,7 +22,7 @@ constexpr uint32_t height = 75;
 
 using Image = std::vector<float>;
 
-class ExactnessTest : public ContextFixture {
+class SplitIntoCalls : public ContextFixture {
 protected:
     void set_up_coursework(pt_context *on, uint32_t max_path_length) {
         set_coursework(on, render_of(width, height, max_path_length));
@@ -45,7 +45,7 @@ protected:
     }
 };
 
-TEST_F(ExactnessTest, SplittingOverCallsKeepsTheBits) {
+TEST_F(SplitIntoCalls, SplittingOverCallsKeepsTheBits) {
     const Image at_once = image_of({64});
     EXPECT_EQ(image_of(std::vector<uint32_t>(64, 1)), at_once);
     EXPECT_EQ(image_of({7, 19, 38}), at_once);
@@ -53,7 +53,7 @@ TEST_F(ExactnessTest, SplittingOverCallsKeepsTheBits) {
 }
 
 // Calls may exceed the limits of a dispatch or of the table of points.
-class GatheringTest : public ExactnessTest {
+class GatheringTest : public SplitIntoCalls {
 protected:
     Context create_fixtures_context() override {
         return create_context([](pt_create_info &info) { info.submit_milliseconds = 1000; });
@@ -119,7 +119,7 @@ TEST_F(GatheringTest, OfPointsFromATableKeepsTheBits) {
         expect_same_in_pieces(paths, 512 + sample_count);
 }
 
-TEST_F(ExactnessTest, TheTargetErrorIsReachedAtTheFirstCheckThatSaysSo) {
+TEST_F(SplitIntoCalls, TheTargetErrorIsReachedAtTheFirstCheckThatSaysSo) {
     constexpr uint32_t most = 4096;
     constexpr double target = 0.07;
     set_up_coursework(context(), 3);
@@ -142,7 +142,7 @@ TEST_F(ExactnessTest, TheTargetErrorIsReachedAtTheFirstCheckThatSaysSo) {
     EXPECT_GT(error().relative_rmse_high, target);
 }
 
-TEST_F(ExactnessTest, SamplesMayRunOutBeforeTheTargetErrorIsReached) {
+TEST_F(SplitIntoCalls, SamplesMayRunOutBeforeTheTargetErrorIsReached) {
     set_up_coursework(context(), 3);
     for (const double target : {1e-9, 1e9}) {
         const pt_accumulate_info info{sizeof info, 8, nullptr, nullptr, target, PT_SAMPLING_UNIFORM, 0, nullptr, 0, 0};
@@ -153,7 +153,7 @@ TEST_F(ExactnessTest, SamplesMayRunOutBeforeTheTargetErrorIsReached) {
 
 // |A - B| sqrt(a b) / n. A is the mean of the first a samples, where a is the largest power of two below n. B is the
 // mean of the other b. Calls end before, at, after and across the counts at which parts are folded.
-TEST_F(ExactnessTest, StandardErrorsAreThoseOfTheFilmsParts) {
+TEST_F(SplitIntoCalls, StandardErrorsAreThoseOfTheFilmsParts) {
     const auto standard_errors = [&] {
         Image errors(width * height * 3);
         const pt_image target = image_target(errors, PT_QUANTITY_STANDARD_ERROR);
@@ -197,7 +197,7 @@ TEST_F(ExactnessTest, StandardErrorsAreThoseOfTheFilmsParts) {
 }
 
 // Every sample is float32(0.1). Some drivers stop loops after 65,535 rounds.
-TEST_F(ExactnessTest, NoSampleIsLostInLongRuns) {
+TEST_F(SplitIntoCalls, NoSampleIsLostInLongRuns) {
     const Image image = image_inside_a_lamp(0.1F, 1U << 20);
     EXPECT_EQ(image, Image(image.size(), 0.1F));
     EXPECT_EQ(stats().sample_count, 1U << 20);

@@ -15,7 +15,7 @@ constexpr uint32_t shared_height = 45;
 
 using Image = std::vector<float>;
 
-class SharingTest : public ContextFixture {
+class SplitOverDevices : public ContextFixture {
 protected:
     Context context_on(uint32_t device_count, uint32_t submit_milliseconds, bool like_gpus = false) {
         return create_context([&](pt_create_info &info) { info.submit_milliseconds = submit_milliseconds; },
@@ -49,7 +49,7 @@ protected:
     }
 };
 
-TEST_F(SharingTest, SeveralDevicesGiveTheBitsOfOne) {
+TEST_F(SplitOverDevices, SeveralDevicesGiveTheBitsOfOne) {
     const Context alone = context_on(1, 50);
     set_up(alone.get());
     ASSERT_EQ(accumulate_on(alone.get(), 77), PT_OK);
@@ -86,7 +86,7 @@ struct StopperOfOne {
     }
 };
 
-TEST_F(SharingTest, StoppingSeveralDevicesLeavesARangeWithoutGaps) {
+TEST_F(SplitOverDevices, StoppingSeveralDevicesLeavesARangeWithoutGaps) {
     const Context shared = context_on(3, 1);
     const Context alone = context_on(1, 50);
     set_up(shared.get());
@@ -107,7 +107,7 @@ TEST_F(SharingTest, StoppingSeveralDevicesLeavesARangeWithoutGaps) {
     EXPECT_TRUE(stops > 1 || !is_on_cpu(shared.get())) << stops;
 }
 
-TEST_F(SharingTest, RowsAreThoseOfTheWholeImage) {
+TEST_F(SplitOverDevices, RowsAreThoseOfTheWholeImage) {
     set_up(context());
     accumulate(16);
     const Image whole = image_of(context());
@@ -124,7 +124,7 @@ TEST_F(SharingTest, RowsAreThoseOfTheWholeImage) {
     EXPECT_NE(image_of(context(), 7), Image(whole.begin(), whole.begin() + std::ptrdiff_t{shared_width} * 7 * 3));
 }
 
-TEST_F(SharingTest, LargeFilmsMeetInBands) {
+TEST_F(SplitOverDevices, LargeFilmsMeetInBands) {
     constexpr uint32_t width = 1060;
     constexpr uint32_t height = 500;
     Image images[2];

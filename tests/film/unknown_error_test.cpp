@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace uncertain {
+namespace unknown_error {
 
 namespace {
 
@@ -20,7 +20,7 @@ constexpr uint32_t width = 32;
 constexpr uint32_t height = 32;
 
 // The floor fills the image. A lamp 100 above it covers radius^2 / 40000 of all directions.
-class UncertainTest : public ContextFixture {
+class UnknownError : public ContextFixture {
 protected:
     void set_up(double lamp_radius, uint32_t estimator, uint32_t max_path_length = 2,
                 const std::array<double, 3> &place = {0.0, 100.0, 0.0}, double depth = 1.0, float glossiness = 0.0F) {
@@ -51,7 +51,7 @@ constexpr uint32_t unmet = PT_UNCERTAIN_UNMET;
 
 // A ray hits the lamp with the probability 1/100. The 1024 pixels have 164 hits with 16 samples and 2,620 with 256. The
 // estimate needs 1,000.
-TEST_F(UncertainTest, WhileALampIsHardlyMetByChance) {
+TEST_F(UnknownError, WhileALampIsHardlyMetByChance) {
     for (const uint32_t estimator : {PT_ESTIMATOR_UNIFORM, PT_ESTIMATOR_COSINE, PT_ESTIMATOR_BSDF}) {
         set_up(20.0, estimator);
         EXPECT_EQ(after(16) & unmet, unmet) << estimator;
@@ -66,7 +66,7 @@ TEST_F(UncertainTest, WhileALampIsHardlyMetByChance) {
 }
 
 // About one in 1,000,000 directions from the floor hits the floor's lobe.
-TEST_F(UncertainTest, WhileALobeIsHardlyMetByChance) {
+TEST_F(UnknownError, WhileALobeIsHardlyMetByChance) {
     for (const uint32_t estimator : {PT_ESTIMATOR_UNIFORM, PT_ESTIMATOR_COSINE, PT_ESTIMATOR_BSDF}) {
         set_up(50.0, estimator, 2, {0.0, 100.0, 0.0}, 1.0, 1e6F);
         EXPECT_EQ(after(240) & unmet, estimator == PT_ESTIMATOR_BSDF ? 0U : unmet) << estimator;
@@ -80,7 +80,7 @@ double lamp_of(double pixels) {
 
 // A visible lamp that covers a 20th of a pixel is hit .8 times by 16 samples, and 13 times by 256. Its light on other
 // surfaces is negligible.
-TEST_F(UncertainTest, WhileSamplesHardlyMeetALampInView) {
+TEST_F(UnknownError, WhileSamplesHardlyMeetALampInView) {
     for (const bool in_view : {true, false}) {
         set_up(lamp_of(1.0 / 20), PT_ESTIMATOR_MIS, 2, {in_view ? 0.0 : 6.0, -10.0, 0.0}, 20.0);
         EXPECT_EQ(after(16) & unmet, in_view ? unmet : 0U);
@@ -89,7 +89,7 @@ TEST_F(UncertainTest, WhileSamplesHardlyMeetALampInView) {
 }
 
 // A lamp that covers 2.5e-9 of all directions is never hit. Two black parts agree, although the light is unknown.
-TEST_F(UncertainTest, NothingIsKnownOfAPictureThatIsBlackByChance) {
+TEST_F(UnknownError, NothingIsKnownOfAPictureThatIsBlackByChance) {
     set_up(0.01, PT_ESTIMATOR_BSDF);
     EXPECT_EQ(after(16), unmet);
     EXPECT_EQ(error().relative_rmse_high, std::numeric_limits<double>::infinity());
@@ -98,7 +98,7 @@ TEST_F(UncertainTest, NothingIsKnownOfAPictureThatIsBlackByChance) {
     EXPECT_TRUE(std::isfinite(error().relative_rmse_high));
 }
 
-TEST_F(UncertainTest, NoTargetIsReachedBeforeALampInViewIsMet) {
+TEST_F(UnknownError, NoTargetIsReachedBeforeALampInViewIsMet) {
     for (const auto &[sampling, needed] : {std::pair{PT_SAMPLING_UNIFORM, 60U},
                                            {PT_SAMPLING_UNIFORM, 120U},
                                            {PT_SAMPLING_ADAPTIVE, 60U},
@@ -134,4 +134,4 @@ TEST_F(UncertainTest, NoTargetIsReachedBeforeALampInViewIsMet) {
 
 } // namespace
 
-} // namespace uncertain
+} // namespace unknown_error

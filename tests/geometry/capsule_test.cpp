@@ -51,14 +51,6 @@ glm::dvec3 ray_of(const pt_camera &camera, std::uint32_t pixel) {
                              (pixel / picture.x + 0.5 - 0.5 * picture.y) * up);
 }
 
-Given inside() {
-    Given given = random_scene(9, 5, 3, 3.0);
-    given.planes.clear();
-    given.spheres.back() = {{0, 2.4, -2}, 0.5, {0, 0, 0}, 2, 0};
-    given.capsules.push_back({{-1, 0, -4}, {2, 0.5, 4}, 5.0, 1});
-    return given;
-}
-
 class Capsules : public LightInDouble {
 protected:
     std::vector<float> read(std::uint32_t quantity) {
@@ -151,11 +143,6 @@ TEST_F(Capsules, AreSpheresWhereTheirEndsCoincide) {
         else
             EXPECT_EQ(of_capsules, of_spheres);
     }
-}
-
-TEST_F(Capsules, HaveTheSameBitsOfSplitsAndScale) {
-    for (const Given &given : {inside(), random_scene(4, 200, 100, 8.0)})
-        expect_the_same_bits_of_splits_and_scale(given);
 }
 
 // Negative control: radii that are larger by 3%.

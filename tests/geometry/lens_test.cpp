@@ -51,14 +51,6 @@ TEST_F(Lens, IsAsWideAndFocusedAsStated) {
     EXPECT_GT(error(farther), most_errors);
 }
 
-TEST_F(Lens, HasTheSameBitsOfSplitsAndScale) {
-    Given cut = random_balls(5, 7, 8.0); // surfaces cut the lens
-    cut.camera.position[1] = -1.0;
-    cut.spheres.push_back({{0.28 * 8.0 + 1.6, -1.0, 0.96 * 8.0}, 1.0, {0, 0, 0}, 0, 0});
-    for (const Given &given : {random_balls(2, 9, 8000.0), cut, random_balls(3, 300, 8.0)})
-        expect_the_same_bits_of_splits_and_scale(given);
-}
-
 // First hits use the pinhole at the lens's center.
 TEST_F(Lens, WithoutADiameterIsAPinhole) {
     Given lens = random_balls(1, 7, 8.0);

@@ -23,7 +23,7 @@ pt::PreparedScene all_in_a_tree(const pt::Scene &scene) {
 
 // The scenes have one lamp, a few lamps that are each sampled, more lamps than branches, or many lamps. The paths have
 // one vertex, one direction, or Russian roulette.
-TEST(WalkSteps, TakeTheSamplesOfWholeWalks) {
+TEST(TreePath, TakeTheSamplesOfWholeWalks) {
     TreeScenes scenes(23);
     const bool is_exact = probe_device().info().kind == PT_DEVICE_CPU;
     int beyond_branches = 0;

@@ -1,4 +1,5 @@
 #include "lib/kernel/gpu_scene.h"
+#include "lib/kernel/scene_blocks.h"
 #include "lib/scene/seen_scene.h"
 
 #include <gtest/gtest.h>
@@ -98,27 +99,14 @@ TEST(GpuLayout, TheFilmUnitFollowsTheBrightestLampInUse) {
 }
 
 // The film rejects light with a sign.
-TEST(GpuLayout, NegativeZerosAreZeros) {
-    const auto words_with = [](float zero) {
-        pt::Scene scene = small_scene();
-        for (pt::Material &material : scene.materials)
-            for (glm::vec3 *color : {&material.diffuse, &material.specular, &material.emission})
-                for (int channel = 0; channel < 3; ++channel)
-                    if ((*color)[channel] == 0.0F)
-                        (*color)[channel] = zero;
-        return gpu_scene_of(scene, camera_at({0, 0, 1})).words;
-    };
-    const std::vector<glm::vec4> words = words_with(-0.0F);
-    const std::vector<glm::vec4> expected = words_with(0.0F);
-    ASSERT_EQ(words.size(), expected.size());
-    int zeros = 0;
-    for (std::size_t i = 0; i < words.size(); ++i)
-        for (int k = 0; k < 4; ++k)
-            if (expected[i][k] == 0.0F) {
-                ++zeros;
-                EXPECT_EQ(std::signbit(words[i][k]), std::signbit(expected[i][k])) << i << ", " << k;
-            }
-    EXPECT_GT(zeros, 5);
+TEST(GpuLayout, ALampsNegativeZeroIsZero) {
+    pt::Scene scene = small_scene();
+    scene.materials[2].emission.r = -0.0F;
+    const pt::GpuScene gpu_scene = gpu_scene_of(scene, camera_at({0, 0, 1}));
+    const glm::vec4 emission = gpu_scene.words[pt::SceneBlocks(gpu_scene.features).emission];
+    EXPECT_EQ(emission.g, 60.0F);
+    EXPECT_EQ(emission.r, 0.0F);
+    EXPECT_FALSE(std::signbit(emission.r));
 }
 
 } // namespace

@@ -105,7 +105,7 @@ std::vector<double> lamp_weights(const pt::GpuScene &scene, const TreeVertex &ve
     return weights;
 }
 
-// Lamps with fewer than 20 expected choices share a cell.
+// Lamps with fewer than 20 expected choices are counted together.
 struct Frequencies {
     std::vector<double> observed, expected, wrong;
 };

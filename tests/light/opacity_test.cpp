@@ -236,7 +236,9 @@ TEST_F(Opacity, LeavesPlanesOpaque) {
 }
 
 TEST_F(Opacity, LeavesNoBitToChance) {
-    const Given given = cloud(60);
+    Given given = cloud(60); // capsules and spheres
+    given.camera.aperture = 0.5;
+    given.camera.focus = 7.0;
     const std::vector<float> whole = image(given, 16);
     Given reversed = given;
     std::ranges::reverse(reversed.capsules);

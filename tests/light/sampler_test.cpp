@@ -95,7 +95,7 @@ TEST(SamplerRandom, BranchesAreSamplesOfTheirOwn) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Sampler, testing::ValuesIn(numbers_of(&pt_render::sampler)),
-                         [](const auto &info) { return "Number" + std::to_string(info.param); });
+                         [](const auto &param) { return "Number" + std::to_string(param.param); });
 
 TEST(SamplerHalton, IsTheRadicalInverseInEveryPixel) {
     Request request;

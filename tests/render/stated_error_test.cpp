@@ -1,17 +1,15 @@
-#include "lib/film/error_estimate.h"
+// Stated errors of pictures against their errors by references.
 #include "lib/film/sample_set.h"
 #include "tests/render/reference_image.h"
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
-#include "tests/support/image_tiles.h"
 #include "tests/support/scene_of.h"
 
 #include <pt/film.h>
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -197,45 +195,6 @@ TEST_F(StatedError, OfRangesIsThatByTheReference) {
         EXPECT_TRUE(each.judgement.accepts(ratio)) << ratio;
         EXPECT_FALSE(each.judgement.accepts(0.25 * ratio)) << "an error stated too small is not seen";
     }
-}
-
-template <typename PartOf>
-double error_from_parts(const std::vector<Image> &samples, const PartOf &part_of) {
-    const auto count = static_cast<double>(samples.size());
-    pt::ImageValues pixels;
-    for (std::size_t i = 0; i < samples[0].size(); ++i) {
-        double sums[2] = {};
-        for (std::size_t s = 0; s < samples.size(); ++s)
-            sums[part_of(static_cast<uint32_t>(s))] += static_cast<double>(samples[s][i]);
-        pixels.mean.push_back(static_cast<float>((sums[0] + sums[1]) / count));
-        pixels.standard_error.push_back(static_cast<float>(std::abs(sums[0] - sums[1]) / count));
-        pixels.lesser.push_back(static_cast<float>(2.0 * std::min(sums[0], sums[1]) / count));
-    }
-    pt::ErrorEstimator estimator({PT_SAMPLER_SOBOL, false});
-    add_tiles(estimator, calibration_width, pixels, samples.size());
-    return estimator.result().relative_rmse.estimate;
-}
-
-// The first digit of the first dimension tells even samples from odd ones. Each part would see only one half of every
-// pixel.
-TEST_F(StatedError, OfSobolFailsForEvenAndOddSamples) {
-    constexpr uint32_t sample_count = 64;
-    std::vector<Image> samples;
-    for (uint32_t i = 0; i < sample_count; ++i) {
-        set_up(false, 2, PT_SAMPLER_SOBOL, i);
-        accumulate(1);
-        samples.push_back(image());
-    }
-    set_up(false, 2, PT_SAMPLER_SOBOL);
-    accumulate(sample_count);
-    const double truth = relative_rmse(image(), read_reference("coursework_L2").radiance);
-    const uint64_t older = pt::split_of({0, sample_count});
-    ASSERT_EQ(2 * older, sample_count);
-    const double by_film = error_from_parts(samples, [&](uint32_t i) { return i < older ? 0 : 1; });
-    const double by_parity = error_from_parts(samples, [](uint32_t i) { return i % 2; });
-    EXPECT_NEAR(by_film, error().relative_rmse, 1e-4 * by_film);
-    EXPECT_TRUE(of_sequence.accepts(by_film / truth)) << by_film / truth;
-    EXPECT_FALSE(of_sequence.accepts(by_parity / truth)) << by_parity / truth;
 }
 
 } // namespace

@@ -138,7 +138,7 @@ TEST_F(BorrowedDeviceTest, ASubmissionThatLosesTheDeviceLetsGoOfTheQueue) {
 // The library stops waiting for the work, but the work still uses its buffers and the device.
 TEST_F(BorrowedDeviceTest, ADeviceThatHangsKeepsWhatItsWorkUses) {
     const CallerVulkan handles = this->handles(false);
-    std::optional<Gate> gate(caller_->device());
+    std::optional<HeldWork> gate(caller_->device());
     {
         Instance instance(pt::Log{}, handles.instance);
         const vk::raii::PhysicalDevice physical = validated_physical_device(instance.handle(), handles);

@@ -2,12 +2,12 @@
 
 #include "lib/vulkan/api.h"
 
-class Gate {
+class HeldWork {
 public:
-    explicit Gate(const vk::raii::Device &device) : device_(device), event_(device.createEvent({})) {}
-    ~Gate() { open(); }
-    Gate(const Gate &) = delete;
-    Gate &operator=(const Gate &) = delete;
+    explicit HeldWork(const vk::raii::Device &device) : device_(device), event_(device.createEvent({})) {}
+    ~HeldWork() { open(); }
+    HeldWork(const HeldWork &) = delete;
+    HeldWork &operator=(const HeldWork &) = delete;
 
     void record(const vk::raii::CommandBuffer &commands) const {
         commands.waitEvents(*event_, vk::PipelineStageFlagBits::eHost, vk::PipelineStageFlagBits::eComputeShader, {},

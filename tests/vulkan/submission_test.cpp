@@ -46,7 +46,7 @@ TEST_F(VulkanTest, ADeviceThatDoesNotEndASubmissionIsLostForGood) {
                                   .scene_in_constants = false,
                                   .invocations = 0,
                                   .queue_depth = 1});
-    const Gate gate(device.handle());
+    const HeldWork gate(device.handle());
     Recurrence recurrence(device, 256);
     const pt::Error loss = error_of([&] { device.submit([&](const auto &commands) { gate.record(commands); }); });
     EXPECT_EQ(loss.code(), PT_ERROR_DEVICE_LOST);
@@ -78,7 +78,7 @@ TEST_F(VulkanTest, KernelsRunAllLoopTripsOfTheBudget) {
 }
 
 TEST_F(VulkanTest, ASubmissionIsWaitedForUntilATime) {
-    const Gate gate(device().handle());
+    const HeldWork gate(device().handle());
     const Device::Ticket ticket = device().start([&](const auto &commands) { gate.record(commands); });
     EXPECT_FALSE(device().is_done(ticket, Device::Clock::time_point::min()));
     EXPECT_FALSE(device().is_done(ticket, Device::Clock::now() + std::chrono::milliseconds{5}));
