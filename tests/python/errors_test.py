@@ -61,7 +61,7 @@ class Results(unittest.TestCase):
 
 
 class Functions(unittest.TestCase):
-    KINDS = {"uint32_t": ctypes.c_uint32.__name__, "uint64_t": ctypes.c_uint64.__name__, "double": "c_double",
+    KINDS = {"uint32_t": ctypes.c_uint32.__name__, "uint64_t": ctypes.c_uint64.__name__, "double": "c_double", "float": "c_float",
              "pt_result": ctypes.c_int32.__name__, "const char *": "c_char_p", "void": "NoneType",
              "pt_take_bytes_fn": "CFunctionType"}
 
