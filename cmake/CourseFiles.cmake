@@ -1,7 +1,7 @@
 # cmake -DROOT=project -DSOURCE=out -P CourseFiles.cmake: writes a source with the files of a student's folder. It has
 # the kernels that --shader-dir needs, with the start of the course as pathtrace.comp, and what they include.
 cmake_minimum_required(VERSION 3.22)
-set(queue coursework/start.comp fold.comp add.comp resolve.comp estimate.comp accuracy.comp first_hit.comp coverage.comp)
+set(queue coursework/start.comp fold.comp add.comp resolve.comp estimate.comp accuracy.comp first_hit.comp)
 set(files)
 while(queue)
   list(POP_FRONT queue name)

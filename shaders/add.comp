@@ -33,4 +33,7 @@ void main()
         rare.w = added.words[from + FILM_REJECTED * from_stride];
         film_add_rare_words(to, to_stride, rare);
     }
+    if (add.has_coverage == 1u)
+        film.words[FILM_COVERED * to_stride + add.first_pixel + gl_GlobalInvocationID.x] +=
+            added.words[FILM_COVERED * from_stride + add.added_first_pixel + gl_GlobalInvocationID.x];
 }

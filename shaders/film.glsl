@@ -153,4 +153,13 @@ void film_store(uint film_part, uint pixel_in_strip, uint strip_pixel_count, Fil
     }
 }
 
+void film_store_covered(uint pixel_in_strip, uint strip_pixel_count, uint count, bool shared_pixel)
+{
+    uint word = FILM_COVERED * strip_pixel_count + pixel_in_strip;
+    if (shared_pixel)
+        atomicAdd(film.words[word], count);
+    else
+        film.words[word] += count;
+}
+
 #endif

@@ -23,4 +23,9 @@ uvec4 part_sum(uint part, uint channel, uint pixel_in_strip, uint strip_pixel_co
                  film.words[first + 3u * strip_pixel_count]);
 }
 
+uint film_covered(uint pixel_in_strip, uint strip_pixel_count)
+{
+    return film.words[FILM_COVERED * strip_pixel_count + pixel_in_strip];
+}
+
 #endif

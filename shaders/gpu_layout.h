@@ -93,8 +93,6 @@ PT_CONSTANT BINDING_TILES = 7;
 // resolve.comp, estimate.comp and first_hit.comp.
 PT_CONSTANT BINDING_RESOLVED = 3;
 PT_CONSTANT BINDING_FINDINGS = 4;
-// coverage.comp.
-PT_CONSTANT BINDING_COVERED = 3;
 // estimate.comp.
 PT_CONSTANT BINDING_TILE_COUNTS = 4;
 PT_CONSTANT BINDING_TILE_SQUARES = 5;
@@ -217,6 +215,9 @@ PT_CONSTANT FILM_FRACTION_BITS = 60;
 PT_CONSTANT FILM_ACCEPTED = 12;
 PT_CONSTANT FILM_REJECTED = 13;
 PT_CONSTANT FILM_WORDS = 14;
+// With COVERAGE one more plane follows both parts: the number of samples whose camera rays hit a surface, accepted or
+// not.
+PT_CONSTANT FILM_COVERED = FILM_PARTS * FILM_WORDS;
 // The most samples that an invocation sums (film.glsl).
 PT_CONSTANT FILM_MAX_GATHERED = 511;
 // Accepted components are in [0, 2^28) film units, so a sum of 2^32 samples is below 2^60.
@@ -311,19 +312,6 @@ PT_FUNCTION uint rays_of_pixel(uint quantity)
     return quantity == QUANTITY_NORMAL || quantity == QUANTITY_ALBEDO ? FILTER_RAYS : 1;
 }
 
-// For coverage.comp.
-struct CoverageConstants {
-    CameraView camera;
-    uvec2 seed;
-    uint first_row; // the film's first image row
-    uint first_pixel;
-    uint rectangle_width;
-    uint first_of_rectangle;
-    uint pixel_count;
-    uint first_sample;
-    uint last_sample;
-};
-
 // For estimate.comp. The strip has whole rows.
 struct EstimateConstants {
     uint film_width;
@@ -343,6 +331,7 @@ struct AddConstants {
     uint pixel_count;
     uint added_first_pixel;
     uint added_stride; // words of a plane
+    uint has_coverage; // 1: both films have the plane FILM_COVERED
 };
 
 #ifdef __cplusplus
@@ -356,10 +345,9 @@ static_assert(sizeof(TreeFrame) == 80 && offsetof(TreeFrame, middle) == 32 && of
 static_assert(sizeof(ResolveConstants) == 48 && offsetof(ResolveConstants, row_words) == 44);
 static_assert(sizeof(FirstHitConstants) == 92 && offsetof(FirstHitConstants, pixel_count) == 88);
 static_assert(WORKGROUP_SIZE % FILTER_RAYS == 0);
-static_assert(sizeof(CoverageConstants) == 100 && offsetof(CoverageConstants, seed) == 64);
 static_assert(sizeof(EstimateConstants) == 36 && offsetof(EstimateConstants, sample_counts) == 16);
 static_assert(sizeof(TileErrors) == 88 && offsetof(TileErrors, rejected) == 80);
-static_assert(sizeof(AddConstants) == 20 && offsetof(AddConstants, added_stride) == 16);
+static_assert(sizeof(AddConstants) == 24 && offsetof(AddConstants, added_stride) == 16);
 } // namespace pt::gpu
 #endif
 #undef PT_CONSTANT

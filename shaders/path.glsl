@@ -111,6 +111,8 @@ vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
 #include "camera_ray.glsl"
 #include "camera_walk.glsl"
 
+uint covered_samples = 0u; // with COVERAGE: samples of this invocation whose camera rays have hit a surface
+
 vec3 emitted_by(uint surface) { return may_emit(surface) ? emission_of(surface).rgb : vec3(0.0); }
 
 // Emission plus throughput-weighted light at up to MAX_PATH_LENGTH vertices.
@@ -122,6 +124,8 @@ vec3 path_radiance(CameraView camera, uvec2 pixel, SampleKey key)
     Hit hit = walk.hit;
     if (hit.surface == NO_SURFACE)
         return vec3(0.0);
+    if (COVERAGE == 1u)
+        ++covered_samples;
     vec3 radiance = emitted_by(hit.surface);
     if (MAX_PATH_LENGTH > 1u)
         radiance += light_from_first_vertex(arrival_of(ray, hit), key, ray.time);

@@ -92,4 +92,6 @@ void main()
     else
         take_samples(pixel, at.in_image, done, end, gathered);
     film_store(frame.film_part, at.in_strip, frame.strip_pixel_count, gathered, OVERLAP == 1u, frame.is_first == 1u);
+    if (COVERAGE == 1u)
+        film_store_covered(at.in_strip, frame.strip_pixel_count, covered_samples, OVERLAP == 1u);
 }

@@ -22,6 +22,9 @@ uint value_of(uint channel, uint pixel_in_strip, PartCount older, PartCount newe
 {
     if (resolve.quantity == QUANTITY_SAMPLE_COUNT)
         return floatBitsToUint(float(older.done + newer.done));
+    if (resolve.quantity == QUANTITY_COVERAGE)
+        return mean_bits(uvec4(film_covered(pixel_in_strip, resolve.strip_pixel_count), 0u, 0u, 0u),
+                         older.done + newer.done, 0);
     uvec4 sum_older = part_sum(0u, channel, pixel_in_strip, resolve.strip_pixel_count);
     uvec4 sum_newer = part_sum(1u, channel, pixel_in_strip, resolve.strip_pixel_count);
     if (resolve.quantity == QUANTITY_RADIANCE)

@@ -53,9 +53,10 @@ PT_SPECIALIZED(UNIFORM_READS, 38, 0) // 1: the scene is read from a short unifor
 PT_SPECIALIZED(KINDS, 40, 1)         // bits of the spheres' kinds
 PT_SPECIALIZED(TREE_KINDS, 41, 1)    // bits of the kinds in the tree
 PT_SPECIALIZED(TREE_OPACITY, 19, 0)  // 1: rays pass through tree spheres at random
+PT_SPECIALIZED(COVERAGE, 42, 0)      // 1: camera rays that hit a surface are counted
 PT_SPECIALIZED(UNROLLED, 36, 112)    // most surfaces of unrolled loops
 PT_SPECIALIZED(INTEGER_ORDER, 37, 0) // 1: integer comparisons are faster (maths.glsl)
-const uint CONSTANT_COUNT = 42;
+const uint CONSTANT_COUNT = 43;
 // Component i of scene word w is constant_id CONSTANT_COUNT + 4 w + i.
 const uint CONSTANT_SCENE_WORDS = 64;
 

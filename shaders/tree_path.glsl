@@ -72,6 +72,8 @@ bool ends_with(inout TreeSample current, Walk walk, Departure departure, Lamps l
         current.has_met = true;
         if (walk.hit.surface == NO_SURFACE)
             return true;
+        if (COVERAGE == 1u)
+            ++covered_samples;
         current.first = arrival_of(current.camera, walk.hit);
         current.path = path_from(current.first);
         return MAX_PATH_LENGTH == 1u;

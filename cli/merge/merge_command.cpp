@@ -146,10 +146,18 @@ std::string missing_text(const MergeReport &report) {
                                            " per pixel missing: ", ranges_text(report.missing));
 }
 
+void check_coverage(const FilmHandle &film, const OutputOptions &output) {
+    refuse_if(output.alpha && (film.info().flags & PT_RENDER_COVERAGE) == 0,
+              "--alpha: the films have no alpha; `pt render --alpha` makes films that have");
+}
+
 bool write_outputs(const FilmHandle &film, const MergeOptions &options, MergeReport &report) {
     const OutputOptions &output = options.output;
     RenderedImage image{report.picture.window.part, film.read_image(PT_QUANTITY_RADIANCE), {}};
-    for (const std::uint32_t quantity : output.layers)
+    std::vector<std::uint32_t> layers = output.layers;
+    if (output.alpha)
+        layers.push_back(PT_QUANTITY_COVERAGE);
+    for (const std::uint32_t quantity : layers)
         image.layers.emplace_back(quantity, image.part.pixel_count()).take(film.read_image(quantity), 0);
     if (needs_tone_map(output))
         report.picture.tone_map = tone_map_for(display_of(options.display), image.radiance);
@@ -163,6 +171,7 @@ bool write_outputs(const FilmHandle &film, const MergeOptions &options, MergeRep
 int run_merge(const MergeOptions &options) {
     check(options);
     const std::unique_ptr<FilmHandle> film = sum_of(options.parts);
+    check_coverage(*film, options.output);
     MergeReport report = merge_report(*film, options);
     check_files(options.output, report.picture.window);
     if (!write_outputs(*film, options, report))

@@ -52,10 +52,6 @@ CLI::Option *add_seconds(CLI::App &command, const std::string &name, std::option
 }
 
 void add_picture_options(CLI::App &command, RenderOptions &options) {
-    command.option_defaults()->group("Output");
-    command.add_flag("--alpha", options.alpha,
-                     "Give " + extensions(&ImageFormat::has_alpha, " and ") +
-                         " an alpha channel: the share of a pixel's samples that see a surface");
     command.option_defaults()->group("Picture");
     command.add_flag(concat("--denoise{", platform::denoiser_file, "}"), options.denoiser,
                      "Denoise by the library Open Image Denoise 2, and state the error of the result");
@@ -195,13 +191,16 @@ void add_output_options(CLI::App &command, OutputOptions &options, std::span<con
                                           "Layers of " + extensions(&ImageFormat::is_radiance) +
                                               " beside the mean, separated by commas")
         ->type_name(listed(layers, "|") + ",...");
+    command.add_flag("--alpha", options.alpha,
+                     "Give " + extensions(&ImageFormat::has_alpha, " and ") +
+                         " an alpha channel: the share of a pixel's samples that see a surface");
     add_text(command, "--film", options.film, "FILM",
              "Write the film (.ptfilm): the exact sums of the samples, for `pt merge`; -o may be left out then");
 }
 
 std::vector<std::uint32_t> RenderOptions::wanted_layers() const {
     std::vector<std::uint32_t> wanted = output.layers;
-    if (alpha)
+    if (output.alpha)
         wanted.push_back(PT_QUANTITY_COVERAGE);
     for (const std::uint32_t guide : {PT_QUANTITY_ALBEDO, PT_QUANTITY_NORMAL})
         if (!denoiser.empty() && std::ranges::find(wanted, guide) == wanted.end())

@@ -48,7 +48,8 @@ struct OutputOptions {
     std::vector<std::string> images;
     std::optional<ImageFormat> format; // for standard output
     std::vector<std::uint32_t> layers; // PT_QUANTITY_* in .exr files besides the radiance
-    std::string film;                  // empty for no film
+    bool alpha = false;
+    std::string film; // empty for no film
     std::string stats;
     bool quiet = false;
 
@@ -76,7 +77,6 @@ struct RenderOptions {
     std::string scene;
     std::vector<SceneOverride> overrides;
     OutputOptions output;
-    bool alpha = false;
     std::string denoiser; // file of the library; empty for no denoising
     std::optional<Rectangle> crop;
 

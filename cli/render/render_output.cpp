@@ -65,14 +65,14 @@ void check_combinations(const RenderOptions &options) {
               "--preview-every: needs the name of a file, which -o gives");
 }
 
-void check_alpha(const RenderOptions &options) {
-    for (const ImageTarget &target : options.output.targets())
+void check_alpha(const OutputOptions &options) {
+    for (const ImageTarget &target : options.targets())
         refuse_if(options.alpha && !target.format.has_alpha,
                   concat("--alpha: -o ", target.path, ": .", target.format.name, " has no alpha; ",
                          extensions(&ImageFormat::has_alpha, " and "), " have"));
-    refuse_if(options.alpha && options.output.images.empty(), "--alpha: needs -o and a name in " +
-                                                                  extensions(&ImageFormat::has_alpha, " or ") +
-                                                                  ", which have the channel");
+    refuse_if(options.alpha && options.images.empty() && options.film.empty(),
+              "--alpha: needs --film, or -o and a name in " + extensions(&ImageFormat::has_alpha, " or ") +
+                  ", which have the channel");
 }
 
 void check_denoise(const RenderOptions &options) {
@@ -84,7 +84,7 @@ void check_denoise(const RenderOptions &options) {
     refuse_if(!options.checkpoint.empty() || !options.output.film.empty(),
               "--checkpoint, --film: a film has the samples of one seed, --denoise takes them by two");
     refuse_if(options.preview_seconds.has_value(), "--preview-every: --denoise shows what both halves make");
-    refuse_if(options.alpha, "--alpha: is the share of the samples, which says nothing of colors by --denoise");
+    refuse_if(options.output.alpha, "--alpha: is the share of the samples, which says nothing of colors by --denoise");
     refuse_if(has(PT_QUANTITY_STANDARD_ERROR) || has(PT_QUANTITY_SAMPLE_COUNT),
               "--layers standard-error, sample-count: are of the samples; the error of --denoise is known for the "
               "whole picture alone");
@@ -116,7 +116,6 @@ void check_names(const RenderOptions &options) {
     check_names(options.output, {});
     refuse_if(options.checkpoint == standard_stream,
               "--checkpoint -: goes to a file, not to standard output; give its name");
-    check_alpha(options);
     check_denoise(options);
     const std::vector<NamedFile> outputs = outputs_of(options.output, options.checkpoint);
     require_distinct_files(sources, outputs);
@@ -130,6 +129,7 @@ void check_names(const OutputOptions &options, const std::vector<NamedFile> &sou
     refuse_if(!options.layers.empty() && !has_format(options, &ImageFormat::is_radiance),
               "--layers: needs -o and a name in " + extensions(&ImageFormat::is_radiance, " or ") +
                   ", as no other format has layers");
+    check_alpha(options);
     require_distinct_files(sources, outputs_of(options));
 }
 

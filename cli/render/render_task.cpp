@@ -55,6 +55,7 @@ RenderTask::RenderTask(RenderOptions chosen, SceneFile file) :
     scene(std::move(file)),
     render(scene.render) {
     render.first_sample = options.first_sample;
+    render.flags = options.output.alpha ? PT_RENDER_COVERAGE : 0;
     sample_count = limited_samples(scene.sample_count.value_or(options.stopping.usual_samples()), render.first_sample,
                                    options.stopping.has_any());
     sample_count = std::max(sample_count / half_count(), 1U);

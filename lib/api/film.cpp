@@ -120,7 +120,9 @@ pt_film_info info_of(const Film &film) {
             .sampler = facts.sampler,
             .tile_count = static_cast<std::uint32_t>(film.header().tiles.size()),
             .lamp_sample_count = film.samples_for_lamps(),
-            .device = facts.device.c_str()};
+            .device = facts.device.c_str(),
+            .flags = facts.has_coverage ? std::uint32_t{PT_RENDER_COVERAGE} : 0,
+            .reserved = 0};
 }
 
 template <typename Handle, typename Call>
@@ -182,7 +184,9 @@ pt_result pt_read_film(const pt_film *film, const pt_image *image) {
     return pt::guard_film(film, [&](const pt::Film &opened) {
         const pt_image target = pt::copy_in(image, "image");
         const pt::Rectangle &bounds = opened.bounds();
-        pt::write_image(opened, pt::validated_image(target, bounds.width, bounds.height, pt::ImageSource::Samples));
+        const pt::Image valid = pt::validated_image(target, bounds.width, bounds.height, pt::ImageSource::Samples);
+        pt::require_coverage(valid.layout.quantity, opened.facts().has_coverage);
+        pt::write_image(opened, valid);
     });
 }
 

@@ -24,7 +24,7 @@ std::string where(const Rectangle &pixels) {
 
 PixelSums part_of(const PixelSums &sums, const Rectangle &pixels, const Rectangle &part) {
     PixelSums cut;
-    cut.resize(part.pixel_count());
+    cut.resize(part.pixel_count(), sums.has_coverage());
     cut.copy(part, sums, pixels);
     return cut;
 }
@@ -47,7 +47,7 @@ Film::Film(std::span<const std::byte> bytes) {
         for (std::uint32_t row = 0; row < height; row += row_count) {
             const Rectangle pixels{x, y + row, width, std::min(row_count, height - row)};
             tiles_.push_back({pixels, tiles[i].samples, {}});
-            tiles_.back().sums.resize(pixels.pixel_count());
+            tiles_.back().sums.resize(pixels.pixel_count(), facts_.has_coverage);
             reader.read(i, std::size_t{row} * width, tiles_.back().sums);
         }
     }
@@ -116,6 +116,9 @@ void Film::add_to(Tile &tile, const Tile &other, SampleSet samples) noexcept {
             tile.sums.add_part(to_part, row * run, other.sums, part,
                                other.pixels.index_of(pixels.x, pixels.y) + row * other.pixels.width, run);
     }
+    for (std::size_t row = 0; row < row_count; ++row)
+        tile.sums.add_coverage(row * run, other.sums,
+                               other.pixels.index_of(pixels.x, pixels.y) + row * other.pixels.width, run);
     tile.samples = std::move(samples);
 }
 
@@ -160,19 +163,18 @@ void Film::write(std::span<std::byte> bytes) const {
 void Film::stream(const FilmStream::Receive &receive) const {
     FilmStream stream(header_, receive);
     const TileMap own(list());
-    for (const FilmTile &tile : header_.tiles) {
-        const std::vector<TileMap::Piece> pieces = own.cut(tile.pixels);
-        const PartCounts counts = part_counts(tile.samples);
-        for (std::uint32_t part = 0; part < gpu::FILM_PARTS; ++part)
-            for (std::size_t plane = 0; plane < gpu::FILM_WORDS && counts[part] > 0; ++plane)
-                stream_plane(pieces, part, plane, stream);
+    const FilmLayout layout(header_);
+    for (std::size_t i = 0; i < header_.tiles.size(); ++i) {
+        const std::vector<TileMap::Piece> pieces = own.cut(header_.tiles[i].pixels);
+        for (std::size_t plane = 0; plane < film_planes(facts_.has_coverage); ++plane)
+            if (layout.has_plane(i, plane))
+                stream_plane(pieces, plane, stream);
     }
     stream.end();
 }
 
 // Each piece must be within one tile.
-void Film::stream_plane(const std::vector<TileMap::Piece> &pieces, std::uint32_t part, std::size_t plane,
-                        FilmStream &stream) const {
+void Film::stream_plane(const std::vector<TileMap::Piece> &pieces, std::size_t plane, FilmStream &stream) const {
     for (auto first = pieces.begin(); first != pieces.end();) {
         const auto [x, top, width, height] = first->pixels;
         const auto end =
@@ -180,8 +182,8 @@ void Film::stream_plane(const std::vector<TileMap::Piece> &pieces, std::uint32_t
         for (std::uint32_t y = top; y < top + height; ++y)
             for (auto piece = first; piece != end; ++piece) {
                 const Tile &tile = tiles_[*piece->tile];
-                stream.add(tile.sums.plane(part, plane)
-                               .subspan(tile.pixels.index_of(piece->pixels.x, y), piece->pixels.width));
+                stream.add(
+                    tile.sums.plane(plane).subspan(tile.pixels.index_of(piece->pixels.x, y), piece->pixels.width));
             }
         first = end;
     }

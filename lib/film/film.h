@@ -78,8 +78,7 @@ private:
     void cut_along(const TileMap &map);
     static std::vector<Tile> outside(const TileMap &map, std::vector<Tile> tiles);
     static void add_to(Tile &tile, const Tile &other, SampleSet samples) noexcept;
-    void stream_plane(const std::vector<TileMap::Piece> &pieces, std::uint32_t part, std::size_t plane,
-                      FilmStream &stream) const;
+    void stream_plane(const std::vector<TileMap::Piece> &pieces, std::size_t plane, FilmStream &stream) const;
 
     FilmFacts facts_;
     std::vector<Tile> tiles_;

@@ -18,10 +18,6 @@ constexpr std::size_t most_piece_bytes = 1U << 20;
 
 constexpr std::uint64_t checksum_bytes = sizeof(std::uint64_t);
 
-std::uint64_t part_bytes(std::uint64_t pixel_count) {
-    return gpu::FILM_WORDS * pixel_count * sizeof(std::uint32_t);
-}
-
 std::string_view header_text(std::span<const std::byte> bytes) {
     const std::string_view all(reinterpret_cast<const char *>(bytes.data()), bytes.size());
     const std::size_t end = all.find("\n\n");
@@ -36,20 +32,25 @@ std::uint64_t stored_checksum(std::span<const std::byte> bytes) {
 
 } // namespace
 
-FilmLayout::FilmLayout(const FilmHeader &header) {
+FilmLayout::FilmLayout(const FilmHeader &header) : has_coverage_(pt::has_coverage(header.identity)) {
     std::uint64_t offset = text_of(header).size();
     for (const FilmTile &tile : header.tiles) {
         tiles_.push_back({offset, tile.pixels.pixel_count(), part_counts(tile.samples)});
-        for (const std::uint64_t count : tiles_.back().counts)
-            offset += count > 0 ? part_bytes(tile.pixels.pixel_count()) : 0;
+        offset = plane_offset(tiles_.size() - 1, film_planes(has_coverage_));
     }
     size_bytes_ = offset + checksum_bytes;
 }
 
-std::uint64_t FilmLayout::plane_offset(std::size_t tile, std::uint32_t part, std::size_t plane) const {
+bool FilmLayout::has_plane(std::size_t tile, std::size_t plane) const {
+    return plane == gpu::FILM_COVERED ? has_coverage_ : tiles_[tile].counts[plane / gpu::FILM_WORDS] > 0;
+}
+
+std::uint64_t FilmLayout::plane_offset(std::size_t tile, std::size_t plane) const {
     const Tile &of = tiles_[tile];
-    const std::uint64_t first_part = part == newer_part && of.counts[older_part] > 0 ? part_bytes(of.pixel_count) : 0;
-    return of.offset + first_part + plane * of.pixel_count * sizeof(std::uint32_t);
+    std::uint64_t stored = 0;
+    for (std::size_t before = 0; before < plane; ++before)
+        stored += has_plane(tile, before) ? 1 : 0;
+    return of.offset + stored * of.pixel_count * sizeof(std::uint32_t);
 }
 
 void require_room(std::uint64_t size_bytes, std::uint64_t needed) {
@@ -66,12 +67,13 @@ FilmWriter::FilmWriter(const FilmHeader &header, std::span<std::byte> bytes) : l
 }
 
 void FilmWriter::write(std::size_t tile, std::uint64_t first_pixel, const PixelSums &sums) {
-    for (std::uint32_t part = 0; part < gpu::FILM_PARTS; ++part)
-        for (std::size_t plane = 0; plane < gpu::FILM_WORDS && layout_.has_part(tile, part); ++plane) {
-            const auto words = std::as_bytes(sums.plane(part, plane));
-            const std::uint64_t offset = layout_.plane_offset(tile, part, plane) + first_pixel * sizeof(std::uint32_t);
-            std::memcpy(bytes_.subspan(offset, words.size()).data(), words.data(), words.size());
-        }
+    for (std::size_t plane = 0; plane < sums.plane_count(); ++plane) {
+        if (!layout_.has_plane(tile, plane))
+            continue;
+        const auto words = std::as_bytes(sums.plane(plane));
+        const std::uint64_t offset = layout_.plane_offset(tile, plane) + first_pixel * sizeof(std::uint32_t);
+        std::memcpy(bytes_.subspan(offset, words.size()).data(), words.data(), words.size());
+    }
 }
 
 void FilmWriter::end() {
@@ -120,16 +122,15 @@ FilmReader::FilmReader(std::span<const std::byte> bytes) :
 }
 
 void FilmReader::read(std::size_t tile, std::uint64_t first_pixel, PixelSums &sums) const {
-    for (std::uint32_t part = 0; part < gpu::FILM_PARTS; ++part)
-        for (std::size_t plane = 0; plane < gpu::FILM_WORDS; ++plane) {
-            const auto words = std::as_writable_bytes(sums.plane(part, plane));
-            if (!layout_.has_part(tile, part)) {
-                std::ranges::fill(words, std::byte{0});
-                continue;
-            }
-            const std::uint64_t offset = layout_.plane_offset(tile, part, plane) + first_pixel * sizeof(std::uint32_t);
-            std::memcpy(words.data(), bytes_.subspan(offset, words.size()).data(), words.size());
+    for (std::size_t plane = 0; plane < sums.plane_count(); ++plane) {
+        const auto words = std::as_writable_bytes(sums.plane(plane));
+        if (!layout_.has_plane(tile, plane)) {
+            std::ranges::fill(words, std::byte{0});
+            continue;
         }
+        const std::uint64_t offset = layout_.plane_offset(tile, plane) + first_pixel * sizeof(std::uint32_t);
+        std::memcpy(words.data(), bytes_.subspan(offset, words.size()).data(), words.size());
+    }
     if (!sums.holds(layout_.counts(tile)))
         throw Error(PT_ERROR_INCOMPATIBLE, "film: sums that its samples cannot have");
 }

@@ -19,8 +19,9 @@ public:
 
     std::uint64_t size_bytes() const { return size_bytes_; }
 
-    std::uint64_t plane_offset(std::size_t tile, std::uint32_t part, std::size_t plane) const;
-    bool has_part(std::size_t tile, std::uint32_t part) const { return tiles_[tile].counts[part] > 0; }
+    // Parts without samples are not stored.
+    bool has_plane(std::size_t tile, std::size_t plane) const;
+    std::uint64_t plane_offset(std::size_t tile, std::size_t plane) const;
     const PartCounts &counts(std::size_t tile) const { return tiles_[tile].counts; }
 
 private:
@@ -31,6 +32,7 @@ private:
     };
 
     std::vector<Tile> tiles_;
+    bool has_coverage_;
     std::uint64_t size_bytes_;
 };
 
@@ -49,8 +51,7 @@ private:
     std::span<std::byte> bytes_;
 };
 
-// Passes on a film's bytes in pieces of at most a megabyte. Each plane of each nonempty part needs add(), tile by tile,
-// then end().
+// Passes on a film's bytes in pieces of at most a megabyte. Each stored plane needs add(), tile by tile, then end().
 class FilmStream {
 public:
     using Receive = std::function<void(std::span<const std::byte>)>;

@@ -53,6 +53,7 @@ FilmFacts facts_of(const FilmIdentity &identity) {
     facts.sampler = read("sampler", 1U, gpu::LAST_SAMPLER);
     facts.unit_exponent = read("unit_exponent", -most_unit_exponent, most_unit_exponent);
     violations.throw_if_any(PT_ERROR_INCOMPATIBLE);
+    facts.has_coverage = has_coverage(identity);
     facts.device = value_in(identity, "device").value_or("");
     return facts;
 }

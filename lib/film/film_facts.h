@@ -14,6 +14,7 @@ struct FilmFacts {
     std::uint64_t seed;
     std::uint32_t estimator;
     std::uint32_t sampler;
+    bool has_coverage;
     int unit_exponent;
     std::string device;
 };

@@ -18,6 +18,7 @@ constexpr std::string_view first_line_start = "pt film ";
 constexpr std::string_view version = "1";
 constexpr std::string_view planes_line = "planes red 4 green 4 blue 4 accepted 1 rejected 1";
 static_assert(3 * gpu::FILM_SUM_WORDS == gpu::FILM_ACCEPTED && gpu::FILM_REJECTED + 1 == gpu::FILM_WORDS);
+constexpr std::string_view covered_plane = " covered 1";
 constexpr std::string_view tile_name = "tile";
 constexpr std::string_view samples_name = "samples";
 constexpr std::string_view round_name = "round";
@@ -119,6 +120,10 @@ void require_counts(const std::vector<FilmTile> &tiles) {
 
 } // namespace
 
+bool has_coverage(const FilmIdentity &identity) {
+    return std::ranges::find(identity, FilmFact{"coverage", "1"}) != identity.end();
+}
+
 std::vector<LampSquare> united(std::vector<LampSquare> lamps) {
     const auto place = [](const LampSquare &square) { return std::pair(square.y, square.x); };
     std::ranges::sort(lamps, [&](const LampSquare &a, const LampSquare &b) {
@@ -131,7 +136,7 @@ std::vector<LampSquare> united(std::vector<LampSquare> lamps) {
 
 std::string text_of(const FilmHeader &header) {
     std::string text = std::string(first_line_start).append(version) + '\n';
-    text.append(planes_line) += '\n';
+    text.append(planes_line).append(has_coverage(header.identity) ? covered_plane : "") += '\n';
     for (const FilmFact &fact : header.identity)
         text += fact.name + ' ' + fact.value + '\n';
     if (header.round.number != AdaptiveRound::none)
@@ -159,8 +164,10 @@ FilmHeader parsed_film_header(std::string_view text) {
     const std::string_view first = take_line(rest);
     if (first.substr(first_line_start.size()) != version)
         refuse("its version is not " + std::string(version) + ", which this library reads");
-    if (take_line(rest) != planes_line)
-        refuse("its planes are not \"" + std::string(planes_line) + "\", which this library reads");
+    if (const std::string_view planes = take_line(rest);
+        planes != planes_line && planes != std::string(planes_line).append(covered_plane))
+        refuse("its planes are not \"" + std::string(planes_line) + "\", with or without \"" +
+               std::string(covered_plane.substr(1)) + "\", which this library reads");
     FilmHeader header;
     for (std::string_view line = take_line(rest); !line.empty(); line = take_line(rest)) {
         const std::size_t blank = std::min(line.find(' '), line.size());

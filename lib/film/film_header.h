@@ -73,6 +73,9 @@ struct LampSquare {
 
 inline constexpr std::uint32_t lamp_square = 8;
 
+// Whether samples that hit a surface are counted.
+bool has_coverage(const FilmIdentity &identity);
+
 // Sorts by rows, and keeps the largest `samples` of equal squares.
 std::vector<LampSquare> united(std::vector<LampSquare> lamps);
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <string>
 
@@ -94,12 +95,21 @@ void PixelSums::clear() noexcept {
 void PixelSums::add(const PixelSums &other) noexcept {
     for (std::uint32_t part = 0; part < gpu::FILM_PARTS; ++part)
         add_part(part, 0, other, part, 0, pixel_count_);
+    add_coverage(0, other, 0, pixel_count_);
 }
 
 void PixelSums::add_part(std::uint32_t to_part, std::size_t to_first, const PixelSums &from, std::uint32_t from_part,
                          std::size_t first, std::size_t count) noexcept {
     add_words({plane(to_part, 0).data() + to_first, pixel_count_},
               {from.plane(from_part, 0).data() + first, from.pixel_count_}, count);
+}
+
+void PixelSums::add_coverage(std::size_t to_first, const PixelSums &from, std::size_t first,
+                             std::size_t count) noexcept {
+    if (!has_coverage_ || !from.has_coverage_)
+        return;
+    const auto own = plane(gpu::FILM_COVERED).subspan(to_first, count);
+    std::ranges::transform(own, from.plane(gpu::FILM_COVERED).subspan(first, count), own.begin(), std::plus());
 }
 
 void PixelSums::fold_into(std::uint32_t part, std::size_t first, std::size_t count) noexcept {
@@ -109,9 +119,8 @@ void PixelSums::fold_into(std::uint32_t part, std::size_t first, std::size_t cou
 }
 
 void PixelSums::copy(const PixelSums &from, std::size_t first, std::size_t count, std::size_t to_first) noexcept {
-    for (std::uint32_t part = 0; part < gpu::FILM_PARTS; ++part)
-        for (std::size_t i = 0; i < gpu::FILM_WORDS; ++i)
-            std::ranges::copy(from.plane(part, i).subspan(first, count), plane(part, i).subspan(to_first).begin());
+    for (std::size_t i = 0, count_of_planes = std::min(plane_count(), from.plane_count()); i < count_of_planes; ++i)
+        std::ranges::copy(from.plane(i).subspan(first, count), plane(i).subspan(to_first).begin());
 }
 
 void PixelSums::copy(const Rectangle &own, const PixelSums &from, const Rectangle &of_from) noexcept {
@@ -148,7 +157,9 @@ bool PixelSums::holds(const PartCounts &expected) const {
             if (pixel.done() != expected[part] || brightest > bound)
                 return false;
         }
-    return true;
+    const std::uint64_t all = expected[older_part] + expected[newer_part];
+    return !has_coverage_ ||
+           std::ranges::all_of(plane(gpu::FILM_COVERED), [&](std::uint32_t count) { return count <= all; });
 }
 
 std::vector<float> PixelSums::values(std::uint32_t quantity, double unit) const {
@@ -164,7 +175,11 @@ std::vector<float> PixelSums::values(std::uint32_t quantity, double unit) const 
                 values.push_back(value.standard_error);
         } else {
             const auto [older, newer] = samples_of(pixel);
-            values.insert(values.end(), 3, static_cast<float>(older + newer));
+            const float value =
+                quantity == PT_QUANTITY_COVERAGE
+                    ? Divisor(static_cast<std::uint32_t>(older + newer), 0).quotient(plane(gpu::FILM_COVERED)[pixel])
+                    : static_cast<float>(older + newer);
+            values.insert(values.end(), 3, value);
         }
     return values;
 }

@@ -26,24 +26,36 @@ void add_words(const PartWords<std::uint32_t> &to, const PartWords<const std::ui
 void subtract_words(const PartWords<std::uint32_t> &to, const PartWords<const std::uint32_t> &from,
                     std::size_t pixel_count) noexcept;
 
+// Planes of both parts, and with coverage the plane FILM_COVERED.
+constexpr std::size_t film_planes(bool has_coverage) {
+    return std::size_t{gpu::FILM_COVERED} + (has_coverage ? 1 : 0);
+}
+
 class PixelSums {
 public:
-    static constexpr std::size_t words_per_pixel = std::size_t{gpu::FILM_PARTS} * gpu::FILM_WORDS;
-
     std::size_t pixel_count() const { return pixel_count_; }
+    std::size_t plane_count() const { return film_planes(has_coverage_); }
+    bool has_coverage() const { return has_coverage_; }
 
-    void resize(std::size_t pixel_count) {
-        words_.resize(pixel_count * words_per_pixel);
+    void resize(std::size_t pixel_count, bool has_coverage = false) {
+        words_.resize(pixel_count * film_planes(has_coverage));
         pixel_count_ = pixel_count;
+        has_coverage_ = has_coverage;
     }
 
     void clear() noexcept;
 
+    std::span<std::uint32_t> plane(std::size_t index) {
+        return std::span(words_).subspan(index * pixel_count_, pixel_count_);
+    }
+    std::span<const std::uint32_t> plane(std::size_t index) const {
+        return std::span(words_).subspan(index * pixel_count_, pixel_count_);
+    }
     std::span<std::uint32_t> plane(std::uint32_t part, std::size_t index) {
-        return std::span(words_).subspan((std::size_t{part} * gpu::FILM_WORDS + index) * pixel_count_, pixel_count_);
+        return plane(std::size_t{part} * gpu::FILM_WORDS + index);
     }
     std::span<const std::uint32_t> plane(std::uint32_t part, std::size_t index) const {
-        return std::span(words_).subspan((std::size_t{part} * gpu::FILM_WORDS + index) * pixel_count_, pixel_count_);
+        return plane(std::size_t{part} * gpu::FILM_WORDS + index);
     }
 
     void add(const PixelSums &other) noexcept;
@@ -52,12 +64,16 @@ public:
     void add_part(std::uint32_t to_part, std::size_t to_first, const PixelSums &from, std::uint32_t from_part,
                   std::size_t first, std::size_t count) noexcept;
 
+    // The same for the coverage, if both have it.
+    void add_coverage(std::size_t to_first, const PixelSums &from, std::size_t first, std::size_t count) noexcept;
+
     // Adds the other part to this part and clears the other part.
     void fold_into(std::uint32_t part, std::size_t first, std::size_t count) noexcept;
 
     // Converts the sums of `samples` to the split of a larger set.
     void split_for(const SampleSet &samples, std::uint64_t split, std::size_t first, std::size_t count) noexcept;
 
+    // Copies the planes that both have.
     void copy(const PixelSums &from, std::size_t first, std::size_t count, std::size_t to_first) noexcept;
 
     // Copies the pixels that two rectangles of an image have in common: `own` of this object and `of_from` of `from`.
@@ -69,14 +85,15 @@ public:
     // Whether this many samples can have these sums.
     bool holds(const PartCounts &expected) const;
 
-    // R, G and B of each pixel. `quantity` is a PT_QUANTITY_* that comes from samples. `unit` is the radiance of one
-    // unit.
+    // R, G and B of each pixel. `quantity` is a PT_QUANTITY_* that comes from samples. PT_QUANTITY_COVERAGE requires
+    // has_coverage(). `unit` is the radiance of one unit.
     std::vector<float> values(std::uint32_t quantity, double unit) const;
 
     bool operator==(const PixelSums &) const = default;
 
 private:
     std::size_t pixel_count_ = 0;
+    bool has_coverage_ = false;
     std::vector<std::uint32_t> words_;
 };
 

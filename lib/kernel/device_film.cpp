@@ -16,10 +16,8 @@ std::uint32_t strip_pixels(std::uint32_t width, std::uint32_t most) {
     return row_of_tiles > most ? most : static_cast<std::uint32_t>(most / row_of_tiles * row_of_tiles);
 }
 
-std::uint64_t word_offset(const DeviceFilm::Strip &strip, std::uint32_t part, std::size_t plane, std::uint32_t pixel) {
-    const std::uint64_t words =
-        (std::uint64_t{part} * gpu::FILM_WORDS + plane) * strip.pixel_count + (pixel - strip.first_pixel);
-    return words * sizeof(std::uint32_t);
+std::uint64_t word_offset(const DeviceFilm::Strip &strip, std::size_t plane, std::uint32_t pixel) {
+    return (std::uint64_t{plane} * strip.pixel_count + (pixel - strip.first_pixel)) * sizeof(std::uint32_t);
 }
 
 void require_memory(const vulkan::Device &device, std::uint64_t bytes, const std::string &what) {
@@ -38,19 +36,20 @@ PixelRange common_pixels(const PixelRange &a, const PixelRange &b) {
     return {first, end > first ? static_cast<std::uint32_t>(end - first) : 0};
 }
 
-std::uint32_t max_strip_pixels(const vulkan::Limits &limits) {
+std::uint32_t max_strip_pixels(const vulkan::Limits &limits, bool has_coverage) {
     const std::uint64_t bytes = std::min<std::uint64_t>(limits.max_storage_buffer_range, limits.max_allocation_bytes);
-    const std::uint64_t pixels = bytes / (PixelSums::words_per_pixel * sizeof(std::uint32_t));
+    const std::uint64_t pixels = bytes / DeviceFilm::bytes_per_pixel(has_coverage);
     const std::uint64_t dispatched = std::uint64_t{limits.max_workgroup_count} * gpu::WORKGROUP_SIZE;
     return static_cast<std::uint32_t>(std::min<std::uint64_t>({pixels, dispatched, UINT32_MAX}));
 }
 
 DeviceFilm::DeviceFilm(vulkan::Device &device, std::uint32_t width, std::uint32_t height,
-                       std::uint32_t max_strip_pixels) :
-    grid_{width, height} {
+                       std::uint32_t max_strip_pixels, bool has_coverage) :
+    grid_{width, height},
+    has_coverage_(has_coverage) {
     for (std::uint32_t first = 0; first < pixel_count();) {
         const std::uint32_t count = std::min(strip_pixels(width, max_strip_pixels), pixel_count() - first);
-        const std::uint64_t words_bytes = count * PixelSums::words_per_pixel * sizeof(std::uint32_t);
+        const std::uint64_t words_bytes = count * bytes_per_pixel();
         strips_.push_back({first, count, vulkan::Buffer(device, vulkan::BufferUse::Storage, words_bytes, "film")});
         first += count;
     }
@@ -72,11 +71,10 @@ void DeviceFilm::read(std::uint32_t first_pixel, PixelSums &sums) {
         if (pixels.count == 0)
             continue;
         std::vector<vulkan::BufferPiece> pieces;
-        for (std::uint32_t part = 0; part < gpu::FILM_PARTS; ++part)
-            for (std::size_t plane = 0; plane < gpu::FILM_WORDS; ++plane)
-                pieces.push_back(
-                    {std::as_writable_bytes(sums.plane(part, plane).subspan(pixels.first - first_pixel, pixels.count)),
-                     word_offset(strip, part, plane, pixels.first)});
+        for (std::size_t plane = 0; plane < std::min(sums.plane_count(), film_planes(has_coverage_)); ++plane)
+            pieces.push_back(
+                {std::as_writable_bytes(sums.plane(plane).subspan(pixels.first - first_pixel, pixels.count)),
+                 word_offset(strip, plane, pixels.first)});
         strip.words.download(pieces);
     }
 }
@@ -92,20 +90,18 @@ void DeviceFilm::copy_to(const vk::raii::CommandBuffer &commands, const PixelRan
         if (overlap.count == 0)
             continue;
         std::vector<vk::BufferCopy> pieces;
-        for (std::uint32_t part = 0; part < gpu::FILM_PARTS; ++part)
-            for (std::size_t plane = 0; plane < gpu::FILM_WORDS; ++plane) {
-                const std::uint64_t words =
-                    (std::uint64_t{part} * gpu::FILM_WORDS + plane) * pixels.count + (overlap.first - pixels.first);
-                pieces.push_back({.srcOffset = word_offset(strip, part, plane, overlap.first),
-                                  .dstOffset = words * sizeof(std::uint32_t),
-                                  .size = overlap.count * sizeof(std::uint32_t)});
-            }
+        for (std::size_t plane = 0; plane < film_planes(has_coverage_); ++plane) {
+            const std::uint64_t words = std::uint64_t{plane} * pixels.count + (overlap.first - pixels.first);
+            pieces.push_back({.srcOffset = word_offset(strip, plane, overlap.first),
+                              .dstOffset = words * sizeof(std::uint32_t),
+                              .size = overlap.count * sizeof(std::uint32_t)});
+        }
         to.copy(commands, strip.words, pieces);
     }
 }
 
 DeviceFilm::NewSums::NewSums(vulkan::Device &device, DeviceFilm &film) : device_(device), film_(film) {
-    const std::uint64_t bytes = film.pixel_count() * PixelSums::words_per_pixel * sizeof(std::uint32_t);
+    const std::uint64_t bytes = film.pixel_count() * film.bytes_per_pixel();
     require_memory(device, bytes, "a sum of films");
     for (const Strip &strip : film.strips_)
         words_.emplace_back(device, vulkan::BufferUse::Storage, strip.words.size(), "sum of films");
@@ -116,11 +112,9 @@ void DeviceFilm::NewSums::write(std::uint32_t first_pixel, const PixelSums &sums
         const Strip &strip = film_.strips_[i];
         const PixelRange pixels =
             common_pixels(strip.pixels(), {first_pixel, static_cast<std::uint32_t>(sums.pixel_count())});
-        for (std::uint32_t part = 0; part < gpu::FILM_PARTS; ++part)
-            for (std::size_t plane = 0; plane < gpu::FILM_WORDS && pixels.count > 0; ++plane)
-                words_[i].upload(
-                    std::as_bytes(sums.plane(part, plane).subspan(pixels.first - first_pixel, pixels.count)),
-                    word_offset(strip, part, plane, pixels.first));
+        for (std::size_t plane = 0; plane < sums.plane_count() && pixels.count > 0; ++plane)
+            words_[i].upload(std::as_bytes(sums.plane(plane).subspan(pixels.first - first_pixel, pixels.count)),
+                             word_offset(strip, plane, pixels.first));
     }
 }
 
@@ -137,8 +131,9 @@ std::uint64_t DeviceFilm::rejected_samples() {
     for (Strip &strip : strips_) {
         plane.resize(strip.pixel_count);
         for (std::uint32_t part = 0; part < gpu::FILM_PARTS; ++part) {
-            strip.words.download(std::as_writable_bytes(std::span(plane)),
-                                 word_offset(strip, part, gpu::FILM_REJECTED, strip.first_pixel));
+            strip.words.download(
+                std::as_writable_bytes(std::span(plane)),
+                word_offset(strip, std::size_t{part} * gpu::FILM_WORDS + gpu::FILM_REJECTED, strip.first_pixel));
             total = std::accumulate(plane.begin(), plane.end(), total);
         }
     }
@@ -176,7 +171,7 @@ void read_films(std::span<DeviceFilm *const> films, const TileSamples &samples, 
                 PixelSums &sums, PixelSums &others) {
     films.front()->read(first_pixel, sums);
     for (DeviceFilm *film : films.subspan(1)) {
-        others.resize(sums.pixel_count());
+        others.resize(sums.pixel_count(), sums.has_coverage());
         film->read(first_pixel, others);
         sums.add(others);
     }
@@ -196,7 +191,7 @@ void read_films(std::span<DeviceFilm *const> films, const TileSamples &samples, 
     PixelSums sums;
     PixelSums others;
     for (std::uint32_t done = 0; done < pixels.count; done += static_cast<std::uint32_t>(sums.pixel_count())) {
-        sums.resize(std::min(most_pixels, pixels.count - done));
+        sums.resize(std::min(most_pixels, pixels.count - done), films.front()->has_coverage());
         read_films(films, samples, pixels.first + done, sums, others);
         receive(sums);
     }

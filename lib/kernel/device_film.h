@@ -26,15 +26,21 @@ public:
     struct Strip {
         std::uint32_t first_pixel;
         std::uint32_t pixel_count;
-        vulkan::Buffer words; // FILM_WORDS planes of the older part, then of the newer part
+        vulkan::Buffer words; // planes as in PixelSums
 
         PixelRange pixels() const { return {first_pixel, pixel_count}; }
     };
 
-    static constexpr std::uint64_t bytes_per_pixel = PixelSums::words_per_pixel * sizeof(std::uint32_t);
+    static constexpr std::uint64_t bytes_per_pixel(bool has_coverage) {
+        return film_planes(has_coverage) * sizeof(std::uint32_t);
+    }
 
     // The film must be cleared before use. Throws PT_ERROR_OUT_OF_DEVICE_MEMORY or PT_ERROR_UNSUPPORTED.
-    DeviceFilm(vulkan::Device &device, std::uint32_t width, std::uint32_t height, std::uint32_t max_strip_pixels);
+    DeviceFilm(vulkan::Device &device, std::uint32_t width, std::uint32_t height, std::uint32_t max_strip_pixels,
+               bool has_coverage = false);
+
+    bool has_coverage() const { return has_coverage_; }
+    std::uint64_t bytes_per_pixel() const { return bytes_per_pixel(has_coverage_); }
 
     std::uint32_t width() const { return grid_.width; }
     std::uint32_t pixel_count() const { return grid_.width * grid_.height; }
@@ -48,9 +54,10 @@ public:
 
     bool has_whole_tiles() const;
 
-    // The copy has no gaps between planes.
+    // The copy has all planes, without gaps between them.
     void copy_to(const vk::raii::CommandBuffer &commands, const PixelRange &pixels, const vulkan::Buffer &to) const;
 
+    // Reads the planes that both have.
     void read(std::uint32_t first_pixel, PixelSums &sums);
 
     // The film changes only by replace().
@@ -73,6 +80,7 @@ public:
 
 private:
     TileGrid grid_;
+    bool has_coverage_;
     std::vector<Strip> strips_;
 };
 
@@ -86,6 +94,6 @@ void read_films(std::span<DeviceFilm *const> films, const TileSamples &samples, 
 // A power of two would put all planes into the same cache sets.
 inline constexpr std::uint32_t piece_pixels = 130'000;
 
-std::uint32_t max_strip_pixels(const vulkan::Limits &limits);
+std::uint32_t max_strip_pixels(const vulkan::Limits &limits, bool has_coverage = false);
 
 } // namespace pt

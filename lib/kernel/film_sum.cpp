@@ -12,10 +12,6 @@ namespace {
 // 3.5 MiB keep a bus busy and fit into the cache.
 constexpr std::uint32_t most_piece_pixels = 1U << 15;
 
-std::uint64_t words_bytes(std::uint32_t pixel_count) {
-    return pixel_count * DeviceFilm::bytes_per_pixel;
-}
-
 } // namespace
 
 vulkan::ComputePipeline add_pipeline(vulkan::Device &device, std::span<const std::uint32_t> code) {
@@ -26,7 +22,8 @@ vulkan::ComputePipeline add_pipeline(vulkan::Device &device, std::span<const std
 FilmSum::FilmSum(const std::vector<Source> &sources, const vulkan::ComputePipeline &add, std::uint32_t row_count) :
     home_(sources.front()),
     add_(add),
-    film_(home_.device, home_.film.width(), row_count, max_strip_pixels(home_.device.limits())),
+    film_(home_.device, home_.film.width(), row_count,
+          max_strip_pixels(home_.device.limits(), home_.film.has_coverage()), home_.film.has_coverage()),
     piece_pixels_(std::min(film_.pixel_count(), most_piece_pixels)) {
     const auto bind = [&](const vulkan::Buffer &words) {
         std::vector<vulkan::DescriptorSet> sets;
@@ -39,11 +36,11 @@ FilmSum::FilmSum(const std::vector<Source> &sources, const vulkan::ComputePipeli
     for (const Source &source : std::span(sources).subspan(1)) {
         Distant &distant = others_.emplace_back(Distant{source, {}});
         for (std::uint32_t i = 0; i < source.device.policy().queue_depth; ++i)
-            distant.slots.emplace_back(source.device, vulkan::BufferUse::HostRead, words_bytes(piece_pixels_),
-                                       "films on their way");
+            distant.slots.emplace_back(source.device, vulkan::BufferUse::HostRead,
+                                       piece_pixels_ * film_.bytes_per_pixel(), "films on their way");
     }
     for (std::uint32_t i = 0; i < home_.device.policy().queue_depth && !others_.empty(); ++i) {
-        slots_.emplace_back(home_.device, vulkan::BufferUse::HostWritten, words_bytes(piece_pixels_),
+        slots_.emplace_back(home_.device, vulkan::BufferUse::HostWritten, piece_pixels_ * film_.bytes_per_pixel(),
                             "films on their way");
         slot_sets_.push_back(bind(slots_.back()));
     }
@@ -101,7 +98,7 @@ void FilmSum::add_others(vulkan::SubmissionsUnderWay &at_home, std::uint32_t fir
             fetch.under_way.finish_first();
             if (at_home.count() == slots_.size())
                 at_home.finish_first();
-            stream_copy(fetch.slot(index).host_memory().first(words_bytes(pixels.count)),
+            stream_copy(fetch.slot(index).host_memory().first(pixels.count * film_.bytes_per_pixel()),
                         slots_[slot].host_memory().data());
             at_home.start([&](const vk::raii::CommandBuffer &commands) {
                 add(commands, first_pixel, wanted, {pixels, slot_sets_[slot]});
@@ -116,6 +113,7 @@ void FilmSum::add(const vk::raii::CommandBuffer &commands, std::uint32_t first_p
                   const Added &added) const {
     gpu::AddConstants constants{};
     constants.added_stride = added.pixels.count;
+    constants.has_coverage = film_.has_coverage() ? 1 : 0;
     for (std::size_t i = 0; i < added.sets.size(); ++i) {
         const DeviceFilm::Strip &strip = film_.strips()[i];
         const PixelRange of_strip{first_pixel + strip.first_pixel, strip.pixel_count};

@@ -28,12 +28,6 @@ bool samples_lamps(const Features &features) {
     return does && features[gpu::ID_MAX_PATH_LENGTH] > 1;
 }
 
-std::vector<std::uint32_t> camera_blocks(const Features &features) {
-    std::vector<std::uint32_t> blocks(1 + features[gpu::ID_LENS], 2);
-    blocks.front() = gpu::camera_dimensions(features[gpu::ID_MOTION]);
-    return blocks;
-}
-
 namespace {
 
 // Whether a sphere lies in the convex region around the camera that planes bound. Paths cannot leave this region.
@@ -149,6 +143,7 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
     features[gpu::ID_MAX_PATH_LENGTH] = render.max_path_length;
     features[gpu::ID_ESTIMATOR] = render.estimator;
     features[gpu::ID_SAMPLER] = render.sampler;
+    features[gpu::ID_COVERAGE] = render.coverage;
     features[gpu::ID_GLOSS] = scene.gloss;
     // The tree holds positions at time 0.
     const bool tree_is_late = tree && tree->moves() && camera.shutter_open > 0.0;
@@ -189,7 +184,8 @@ std::uint32_t further_lamps(const Features &features, std::uint32_t branches) {
 } // namespace
 
 PointLayout point_layout(const Features &features) {
-    std::vector<std::uint32_t> blocks = camera_blocks(features);
+    std::vector<std::uint32_t> blocks(1 + features[gpu::ID_LENS], 2);
+    blocks.front() = gpu::camera_dimensions(features[gpu::ID_MOTION]);
     const auto of_camera = static_cast<std::uint32_t>(blocks.size());
     const std::uint32_t shared =
         gpu::shared_blocks(of_camera, features[gpu::ID_LAMP_COUNT], features[gpu::ID_SPOT_COUNT]);

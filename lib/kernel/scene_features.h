@@ -38,8 +38,6 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
 
 bool samples_lamps(const Features &features);
 
-std::vector<std::uint32_t> camera_blocks(const Features &features);
-
 // Branches share a path's camera ray and first vertex, because later vertices bring most of the noise. Scenes with many
 // spheres, and paths of three vertices with spots, have fewer. Samples near a driver's limit of 65535 loop trips have
 // one.

@@ -2,7 +2,6 @@
 
 #include "accuracy.spv.h"
 #include "add.spv.h"
-#include "coverage.spv.h"
 #include "estimate.spv.h"
 #include "first_hit.spv.h"
 #include "fold.spv.h"
@@ -75,14 +74,14 @@ std::vector<std::uint32_t> compile(pt_compile_glsl_fn compiler, const std::strin
 KernelCode code_of(std::vector<std::vector<std::uint32_t>> words) {
     const auto kept = std::make_shared<const std::vector<std::vector<std::uint32_t>>>(std::move(words));
     const auto &of = *kept;
-    return {of[0], of[1], of[2], of[3], of[4], of[5], of[6], of[7], kept};
+    return {of[0], of[1], of[2], of[3], of[4], of[5], of[6], kept};
 }
 
 } // namespace
 
 KernelCode embedded_code() {
     static const KernelCode code = code_of({pathtrace_spirv(), fold_spirv(), add_spirv(), resolve_spirv(),
-                                            estimate_spirv(), accuracy_spirv(), first_hit_spirv(), coverage_spirv()});
+                                            estimate_spirv(), accuracy_spirv(), first_hit_spirv()});
     return code;
 }
 
@@ -99,7 +98,7 @@ KernelCode ShaderSource::read() const {
     const pt_compile_glsl_fn compiler = load_compiler(directory_);
     std::vector<std::vector<std::uint32_t>> compiled;
     for (const char *const name : {"pathtrace.comp", "fold.comp", "add.comp", "resolve.comp", "estimate.comp",
-                                   "accuracy.comp", "first_hit.comp", "coverage.comp"})
+                                   "accuracy.comp", "first_hit.comp"})
         compiled.push_back(compile(compiler, directory_, name));
     return code_of(std::move(compiled));
 }

@@ -16,7 +16,6 @@ struct KernelCode {
     std::span<const std::uint32_t> estimate;
     std::span<const std::uint32_t> accuracy;
     std::span<const std::uint32_t> first_hit;
-    std::span<const std::uint32_t> coverage;
     std::shared_ptr<const std::vector<std::vector<std::uint32_t>>> words;
 
     bool operator==(const KernelCode &other) const { return *words == *other.words; }

@@ -23,6 +23,7 @@ ENUMERATIONS = (
     ("PT_SAMPLING_", "Sampling", "IntEnum", "The distribution of samples. All converge to the same image."),
     ("PT_TYPE_", "ColumnType", "IntEnum", "The type of a column's components."),
     ("PT_LOG_", "LogLevel", "IntEnum", "The level of a log line."),
+    ("PT_RENDER_", "RenderFlag", "IntFlag", "Options of a rendering; see RenderSettings."),
     ("PT_CREATE_", "CreateFlag", "IntFlag", "Options of a context; see Context."),
     ("PT_DEVICE_", "DeviceKind", "IntEnum", "The kind of a Vulkan device."),
     ("PT_FEATURE_", "Feature", "IntFlag", "Parts of the kernel that the scene needs."),

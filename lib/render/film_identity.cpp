@@ -29,18 +29,21 @@ std::string text_of(const std::vector<pt_device_info> &devices) {
 
 FilmIdentity identity_of(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings,
                          const KernelCode &code, const std::vector<pt_device_info> &devices) {
-    return {{"scene", scene.digest()},
-            {"camera", digest_of(camera)},
-            {"width", std::to_string(settings.width)},
-            {"height", std::to_string(settings.height)},
-            {"max_path_length", std::to_string(settings.max_path_length)},
-            {"seed", std::to_string(settings.seed)},
-            {"estimator", std::to_string(settings.estimator)},
-            {"sampler", std::to_string(settings.sampler)},
-            {"unit_exponent", std::to_string(std::ilogb(scene.film_unit))},
-            {"estimator_version", std::to_string(estimator_version)},
-            {"kernel", digest_of(code)},
-            {"device", text_of(devices)}};
+    FilmIdentity identity{{"scene", scene.digest()},
+                          {"camera", digest_of(camera)},
+                          {"width", std::to_string(settings.width)},
+                          {"height", std::to_string(settings.height)},
+                          {"max_path_length", std::to_string(settings.max_path_length)},
+                          {"seed", std::to_string(settings.seed)},
+                          {"estimator", std::to_string(settings.estimator)},
+                          {"sampler", std::to_string(settings.sampler)},
+                          {"unit_exponent", std::to_string(std::ilogb(scene.film_unit))},
+                          {"estimator_version", std::to_string(estimator_version)},
+                          {"kernel", digest_of(code)},
+                          {"device", text_of(devices)}};
+    if (settings.coverage)
+        identity.insert(std::ranges::find(identity, "unit_exponent", &FilmFact::name), {"coverage", "1"});
+    return identity;
 }
 
 } // namespace pt

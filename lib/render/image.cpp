@@ -1,8 +1,10 @@
 #include "lib/render/image.h"
 
+#include "lib/base/error.h"
 #include "lib/base/rules.h"
 #include "lib/base/stream_copy.h"
 #include "lib/film/pixel_format.h"
+#include "lib/kernel/first_hits.h"
 #include "shaders/gpu_layout.h"
 
 #include <algorithm>
@@ -35,9 +37,9 @@ bool check_extent(const Subject &image, const char *name, std::uint32_t extent, 
 void check_quantity(const Subject &image, std::uint32_t quantity, std::uint32_t format, ImageSource of) {
     const bool is_known = quantity <= gpu::LAST_QUANTITY;
     image.require(is_known, "quantity", quantity, "must be a PT_QUANTITY_* of pt.h");
-    image.require(!is_known || of == ImageSource::Context || quantity <= PT_QUANTITY_SAMPLE_COUNT, "quantity", quantity,
-                  "must be PT_QUANTITY_RADIANCE, PT_QUANTITY_STANDARD_ERROR or PT_QUANTITY_SAMPLE_COUNT here: only "
-                  "pt_readback reads first hits");
+    image.require(!is_known || of == ImageSource::Context || !is_of_first_hits(quantity), "quantity", quantity,
+                  "must be PT_QUANTITY_RADIANCE, PT_QUANTITY_STANDARD_ERROR, PT_QUANTITY_SAMPLE_COUNT or "
+                  "PT_QUANTITY_COVERAGE here: only pt_readback reads first hits");
     image.require(format < format_count, "format", format, "must be a PT_FORMAT_* of pt.h");
     image.require(format >= format_count || (format == PT_FORMAT_R32UI) == (quantity == PT_QUANTITY_OBJECT), "format",
                   format,
@@ -121,6 +123,16 @@ BufferImage validated_image(const pt_buffer_image &source, std::uint32_t width, 
         checked_layout(image, source, buffer_word_bytes, source.offset_bytes, width, height, ImageSource::Samples);
     violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
     return {layout, source.buffer, source.offset_bytes, source.wait_semaphore, source.signal_semaphore};
+}
+
+void require_coverage(std::uint32_t quantity, bool has_coverage) {
+    if (quantity == PT_QUANTITY_COVERAGE && !has_coverage)
+        throw Error(PT_ERROR_INVALID_ARGUMENT,
+                    BrokenRule{.subject = "image",
+                               .member = "quantity",
+                               .value = std::to_string(quantity),
+                               .rule = "PT_QUANTITY_COVERAGE needs samples that were taken with PT_RENDER_COVERAGE in "
+                                       "pt_render.flags"});
 }
 
 ImageRows::ImageRows(const Image &image) :

@@ -34,6 +34,9 @@ struct BufferImage {
 // A context has all quantities. Films and lent buffers only have those that come from samples.
 enum class ImageSource { Context, Samples };
 
+// Throws PT_ERROR_INVALID_ARGUMENT for PT_QUANTITY_COVERAGE of samples that were not counted.
+void require_coverage(std::uint32_t quantity, bool has_coverage);
+
 // source.struct_size must be checked already. width and height are the rendered pixels'. Throws
 // PT_ERROR_INVALID_ARGUMENT with all broken rules.
 Image validated_image(const pt_image &source, std::uint32_t width, std::uint32_t height, ImageSource of);

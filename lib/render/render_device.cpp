@@ -35,7 +35,8 @@ RenderDevice::~RenderDevice() {
 
 // The present film does not count, because it is freed before the new one is touched.
 DeviceFilm RenderDevice::make_film(const RenderSettings &settings) {
-    const std::uint64_t bytes = std::uint64_t{settings.width} * settings.row_count * DeviceFilm::bytes_per_pixel;
+    const std::uint64_t bytes =
+        std::uint64_t{settings.width} * settings.row_count * DeviceFilm::bytes_per_pixel(settings.coverage);
     if (!device_.has_memory(bytes))
         throw Error(PT_ERROR_UNSUPPORTED,
                     BrokenRule{.subject = "render",
@@ -45,7 +46,8 @@ DeviceFilm RenderDevice::make_film(const RenderSettings &settings) {
                                .rule = "the film takes " + std::to_string(bytes) + " bytes, and the device has " +
                                        std::to_string(device_.info().memory_bytes) +
                                        ": render fewer rows at a time (render.first_row, render.row_count)"});
-    return {device_, settings.width, settings.row_count, max_strip_pixels(device_.limits())};
+    return {device_, settings.width, settings.row_count, max_strip_pixels(device_.limits(), settings.coverage),
+            settings.coverage};
 }
 
 void RenderDevice::set_film(DeviceFilm film) {
@@ -84,7 +86,6 @@ void RenderDevice::drop_bound() noexcept {
 void RenderDevice::set_pipelines(const KernelCode &code, std::unique_ptr<TracePipelines> pipelines) noexcept {
     drop_bound();
     first_hits_.reset();
-    coverage_.reset();
     resolve_.reset();
     estimate_.reset();
     add_.reset();
@@ -188,14 +189,6 @@ void RenderDevice::read_first_hits(const std::shared_ptr<const GpuScene> &scene,
     if (!first_hits_)
         first_hits_.emplace(device_, code_.first_hit);
     first_hits_->read(kernel_->bound_scene(), query, target_seconds_ * tests_per_second_, receive);
-}
-
-void RenderDevice::read_coverage(const std::shared_ptr<const GpuScene> &scene, const CoverageQuery &query,
-                                 const Coverage::Receive &receive) {
-    prepare(scene, query.settings);
-    if (!coverage_)
-        coverage_.emplace(device_, code_.coverage);
-    coverage_->read(kernel_->bound_scene(), query, target_seconds_ * tests_per_second_, receive);
 }
 
 ResolvePipelines &RenderDevice::resolve_pipelines() {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "lib/kernel/buffer_writer.h"
-#include "lib/kernel/coverage.h"
 #include "lib/kernel/device_film.h"
 #include "lib/kernel/error_reader.h"
 #include "lib/kernel/film_sum.h"
@@ -49,10 +48,6 @@ public:
     // No work may be running.
     void read_first_hits(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings,
                          const FirstHitQuery &query, const FirstHits::Receive &receive);
-
-    // No work may be running.
-    void read_coverage(const std::shared_ptr<const GpuScene> &scene, const CoverageQuery &query,
-                       const Coverage::Receive &receive);
 
     ResolvePipelines &resolve_pipelines();
     const vulkan::ComputePipeline &estimate_pipeline();
@@ -129,7 +124,6 @@ private:
     std::shared_ptr<const SphereTree> tree_;
     std::optional<vulkan::Buffer> tree_buffer_;
     std::optional<FirstHits> first_hits_;
-    std::optional<Coverage> coverage_;
     std::optional<Kernel> kernel_;
     std::optional<Schedule> schedule_;
     std::vector<Work> under_way_;

@@ -106,7 +106,7 @@ void Renderer::set_render(const RenderSettings &settings) {
     TileSamples none({settings.width, settings.row_count});
     const bool same_size =
         settings_ && settings.width == settings_->width && settings.row_count == settings_->row_count;
-    if (!same_size) {
+    if (!same_size || settings.coverage != settings_->coverage) {
         std::vector<DeviceFilm> films;
         for (const auto &device : devices_)
             films.push_back(device->make_film(settings));

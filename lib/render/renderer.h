@@ -143,6 +143,7 @@ private:
     void require_alive() const;
     void require_settings() const;
     void require_samples() const;
+    void require_samples_of(std::uint32_t quantity) const;
     void require_room_for(std::uint32_t sample_count) const;
     void discard_samples() noexcept;
     const std::shared_ptr<const GpuScene> &gpu_scene_of_settings();

@@ -39,26 +39,6 @@ void read_first_hits(const Image &image, const RenderSettings &settings, const s
     });
 }
 
-// Quotients are correctly rounded, except within 2^-53 of the middle between two floats.
-void read_coverage(const Image &image, const TileSamples &samples, const RenderSettings &settings,
-                   const std::shared_ptr<const GpuScene> &scene, RenderDevice &device) {
-    const Rectangle &pixels = image.layout.pixels;
-    ImageRows rows(image);
-    std::uint64_t done = 0;
-    device.read_coverage(scene, {pixels, samples, settings}, [&](std::span<const std::uint32_t> counts) {
-        std::vector<float> values;
-        for (const std::uint32_t count : counts) {
-            const auto x = static_cast<std::uint32_t>(pixels.x + done % pixels.width);
-            const auto y = static_cast<std::uint32_t>(pixels.y + done / pixels.width);
-            const std::uint64_t all = samples.of(samples.grid().tile_at(x, y)).count();
-            const double share = all > 0 ? static_cast<double>(count) / static_cast<double>(all) : 0.0;
-            values.insert(values.end(), 3, static_cast<float>(share));
-            ++done;
-        }
-        rows.put(values);
-    });
-}
-
 } // namespace
 
 // Parallel rays may start far away, so the sizes of lamps are judged from the origin of the kernel's coordinates.
@@ -144,16 +124,19 @@ ImageQuery Renderer::query(const ImageLayout &layout) const {
     return {layout.pixels, layout.quantity, scene_->film_unit, counts, layout.format};
 }
 
+void Renderer::require_samples_of(std::uint32_t quantity) const {
+    require_coverage(quantity, settings_->coverage);
+    require_samples();
+}
+
 void Renderer::readback(const Image &image) {
     require_settings();
     const KernelsKept kept(devices_);
     const bool is_of_hits = is_of_first_hits(image.layout.quantity);
     if (!is_of_hits)
-        require_samples();
+        require_samples_of(image.layout.quantity);
     if (is_of_hits) // One device is enough for few rays.
         read_first_hits(image, *settings_, gpu_scene_of_settings(), *devices_.front());
-    else if (image.layout.quantity == PT_QUANTITY_COVERAGE)
-        read_coverage(image, samples_, *settings_, gpu_scene_of_settings(), *devices_.front());
     else
         view_.read(image, query(image.layout), samples_);
 }
@@ -161,8 +144,8 @@ void Renderer::readback(const Image &image) {
 // If no device makes the image in memory that the host reads, the host makes it.
 std::span<std::byte> Renderer::map(const ImageLayout &layout) {
     require_settings();
-    if (layout.quantity <= PT_QUANTITY_SAMPLE_COUNT) {
-        require_samples();
+    if (!is_of_first_hits(layout.quantity)) {
+        require_samples_of(layout.quantity);
         const KernelsKept kept(devices_);
         if (const std::optional<std::span<std::byte>> mapped = view_.map(query(layout)))
             return *mapped;
@@ -178,7 +161,7 @@ void Renderer::readback(const BufferImage &image) {
     if (!is_on_lent_device())
         throw Error(PT_ERROR_INVALID_STATE, "the context has a device of its own: pt_create_info.vulkan lends it one");
     require_settings();
-    require_samples();
+    require_samples_of(image.layout.quantity);
     const KernelsKept kept(devices_);
     devices_.front()->buffer_writer().write(
         query(image.layout), {.buffer = std::bit_cast<VkBuffer>(image.buffer),

@@ -51,7 +51,7 @@ void save(std::span<DeviceFilm *const> films, const TileSamples &samples, const 
             const Rectangle of_tile = common(tile, rows);
             if (of_tile.height == 0)
                 continue;
-            part.resize(of_tile.pixel_count());
+            part.resize(of_tile.pixel_count(), sums.has_coverage());
             part.copy(of_tile, sums, rows);
             writer.write(i, tile.index_of(tile.x, of_tile.y), part);
         }
@@ -90,19 +90,19 @@ void add(const FilmReader &film, const TileSamples &added, std::span<DeviceFilm 
     for (std::uint32_t row = 0; row < pixels.height; row += step) {
         const std::uint32_t row_count = std::min(step, pixels.height - row);
         PixelSums others;
-        others.resize(std::size_t{row_count} * pixels.width);
+        others.resize(std::size_t{row_count} * pixels.width, films.front()->has_coverage());
         const Rectangle rows{pixels.x, pixels.y + row, pixels.width, row_count};
         for (std::size_t i = 0; i < tiles.size(); ++i) {
             const Rectangle &tile = tiles[i].pixels;
             const Rectangle of_tile = common(tile, rows);
             if (of_tile.height == 0)
                 continue;
-            part.resize(of_tile.pixel_count());
+            part.resize(of_tile.pixel_count(), others.has_coverage());
             film.read(i, tile.index_of(tile.x, of_tile.y), part);
             others.copy(rows, part, of_tile);
         }
         PixelSums sums;
-        sums.resize(others.pixel_count());
+        sums.resize(others.pixel_count(), others.has_coverage());
         read_films(films, present, row * pixels.width, sums);
         const auto bring_together = [&](std::size_t first, std::size_t count, std::size_t tile) {
             const std::uint64_t split = split_of(all.of(tile).hull());

@@ -12,6 +12,8 @@ namespace {
 // Pixel indices have 32 bits.
 constexpr std::uint64_t max_pixel_count = UINT32_MAX;
 
+constexpr std::uint32_t all_flags = PT_RENDER_COVERAGE;
+
 } // namespace
 
 RenderSettings validated_render(const pt_render &source) {
@@ -25,7 +27,7 @@ RenderSettings validated_render(const pt_render &source) {
     render.require(source.estimator <= gpu::LAST_ESTIMATOR, "estimator", source.estimator,
                    "must be a PT_ESTIMATOR_* of pt.h");
     render.require(source.sampler <= gpu::LAST_SAMPLER, "sampler", source.sampler, "must be a PT_SAMPLER_* of pt.h");
-    render.require(source.reserved == 0, "reserved", source.reserved, "must be 0");
+    render.require((source.flags & ~all_flags) == 0, "flags", source.flags, "must have bits PT_RENDER_* of pt.h alone");
     render.require(source.first_row < std::max(source.height, 1U), "first_row", source.first_row, "must be < height");
     const std::uint64_t rows_end = std::uint64_t{source.first_row} + source.row_count;
     render.require(rows_end <= source.height, {"first_row", "+ row_count"}, rows_end, "must be <= height");
@@ -38,7 +40,8 @@ RenderSettings validated_render(const pt_render &source) {
             source.estimator == PT_ESTIMATOR_BEST ? std::uint32_t{PT_ESTIMATOR_MIS} : source.estimator,
             source.sampler == PT_SAMPLER_BEST ? std::uint32_t{PT_SAMPLER_SOBOL} : source.sampler,
             source.first_row,
-            source.row_count == 0 ? source.height - source.first_row : source.row_count};
+            source.row_count == 0 ? source.height - source.first_row : source.row_count,
+            (source.flags & PT_RENDER_COVERAGE) != 0};
 }
 
 } // namespace pt

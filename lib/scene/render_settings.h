@@ -16,6 +16,7 @@ struct RenderSettings {
     std::uint32_t sampler;
     std::uint32_t first_row;
     std::uint32_t row_count;
+    bool coverage = false; // counts the samples that hit a surface
 };
 
 // Throws PT_ERROR_INVALID_ARGUMENT with all broken rules.

@@ -40,6 +40,9 @@ TEST_F(ApiTest, AccumulateNeedsEverySetting) {
 
 TEST_F(ApiTest, ReadbackNeedsSamples) {
     set_all();
+    pt_render render = valid_render();
+    render.flags = PT_RENDER_COVERAGE;
+    ASSERT_EQ(pt_set_render(context(), &render), PT_OK);
     for (const uint32_t quantity : {PT_QUANTITY_RADIANCE, PT_QUANTITY_STANDARD_ERROR, PT_QUANTITY_COVERAGE}) {
         std::vector<float> pixels(width * height * 3, -1.0F);
         const pt_image target = image_target(pixels, quantity);

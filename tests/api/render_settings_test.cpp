@@ -27,14 +27,14 @@ TEST(RenderSettings, BrokenRulesAreNamed) {
                                      r.max_path_length = 1025;
                                      r.estimator = 6;
                                      r.sampler = 5;
-                                     r.reserved = 1;
+                                     r.flags = 2;
                                  },
                                  "render.width = 0: must be >= 1\n"
                                  "render.height = 0: must be >= 1\n"
                                  "render.max_path_length = 1025: must be <= 1024\n"
                                  "render.estimator = 6: must be a PT_ESTIMATOR_* of pt.h\n"
                                  "render.sampler = 5: must be a PT_SAMPLER_* of pt.h\n"
-                                 "render.reserved = 1: must be 0"},
+                                 "render.flags = 2: must have bits PT_RENDER_* of pt.h alone"},
                                 {[](pt_render &r) { r.width = r.height = 65536; },
                                  "render.width * height = 4294967296: must be <= 4294967295"},
                                 {[](pt_render &r) { r.width = r.height = 4294967295U; },

@@ -47,6 +47,7 @@ pt_camera camera() {
 pt_render render() {
     pt_render render = render_of(width, height, 24);
     render.seed = 7;
+    render.flags = PT_RENDER_COVERAGE;
     return render;
 }
 

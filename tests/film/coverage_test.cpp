@@ -51,6 +51,7 @@ protected:
         pt_render render = render_of(picture_width, picture_height, 1);
         render.sampler = sampler;
         render.seed = 77;
+        render.flags = PT_RENDER_COVERAGE;
         return render;
     }
 
@@ -115,7 +116,9 @@ TEST_F(Coverage, OfManySamplesIsTakenInParts) {
 
     constexpr std::uint32_t width = 400;
     constexpr std::uint32_t height = 300;
-    set(hurried.get(), some(5, 1.0), render_of(width, height, 1));
+    pt_render large = render_of(width, height, 1);
+    large.flags = PT_RENDER_COVERAGE;
+    set(hurried.get(), some(5, 1.0), large);
     take(hurried.get(), 2);
     std::vector<float> radiance(std::size_t{3} * width * height);
     std::vector<float> covered(radiance.size());

@@ -142,6 +142,7 @@ TEST(FilmBytes, HeadersHaveOneForm) {
         {"pt film 1", "film: its header has no end"},
         {"pt film 2\n\n", "film: its version is not 1, which this library reads"},
         {"pt film 1\nseed \t1\n\n", "film: its header has bytes that are no printable ASCII"},
+        {"pt film 1\ncoverage 1\ntile 0 0 1 1\nsamples 0 1\n\n", "film: its header is not written as the format asks"},
         {"pt film 1\ntile 0 0 1\n\n", "film: tile is not four numbers"},
         {"pt film 1\ntile 0 0 1 -1\n\n", "film: tile is not four numbers"},
         {"pt film 1\ntile 0 0 1 0\n\n", "film: tile = 0 0 1 0: must have from 1 to 2^32 - 1 pixels"},

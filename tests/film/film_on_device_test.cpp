@@ -69,7 +69,7 @@ TEST(Film, DeviceSumsAreExact) {
     const std::vector<glm::vec4> samples = awkward_samples();
     Probe probe(film_sums_spirv(), sizeof push);
     const std::vector<std::uint32_t> film =
-        probe.run<std::uint32_t>(samples, pixels * pt::PixelSums::words_per_pixel, push, pixels);
+        probe.run<std::uint32_t>(samples, pixels * pt::film_planes(false), push, pixels);
     EXPECT_TRUE(std::all_of(film.begin(), film.begin() + pixels * pt::gpu::FILM_WORDS,
                             [](std::uint32_t value) { return value == 0; }));
 
@@ -102,7 +102,7 @@ TEST(Film, WindowsHoldTheMostSamplesThatAnInvocationGathers) {
     for (const float extreme : extremes)
         samples.insert(samples.end(), push.per_pixel, glm::vec4(extreme));
     const auto film = Probe(film_sums_spirv(), sizeof push)
-                          .run<std::uint32_t>(samples, push.count * pt::PixelSums::words_per_pixel, push, push.count);
+                          .run<std::uint32_t>(samples, push.count * pt::film_planes(false), push, push.count);
     for (std::uint32_t pixel = 0; pixel < push.count; ++pixel) {
         const Wide sum = push.per_pixel * multiple_of_2_to_minus_60(extremes[pixel]);
         for (std::size_t i = 0; i < 4; ++i)
@@ -164,7 +164,7 @@ TEST_F(FilmStrips, AreReadAsOne) {
     ASSERT_EQ(film.strips().size(), 3U);
     for (pt::DeviceFilm::Strip &strip : film.strips()) {
         std::vector<std::uint32_t> words;
-        for (std::uint32_t plane = 0; plane < pt::PixelSums::words_per_pixel; ++plane)
+        for (std::uint32_t plane = 0; plane < pt::film_planes(false); ++plane)
             for (std::uint32_t i = 0; i < strip.pixel_count; ++i)
                 words.push_back(100 * plane + strip.first_pixel + i);
         strip.words.upload(std::as_bytes(std::span(words)), 0);
@@ -174,7 +174,7 @@ TEST_F(FilmStrips, AreReadAsOne) {
             pt::PixelSums sums;
             sums.resize(count);
             film.read(first, sums);
-            for (std::uint32_t plane = 0; plane < pt::PixelSums::words_per_pixel; ++plane)
+            for (std::uint32_t plane = 0; plane < pt::film_planes(false); ++plane)
                 for (std::uint32_t i = 0; i < count; ++i)
                     ASSERT_EQ(sums.plane(plane / pt::gpu::FILM_WORDS, plane % pt::gpu::FILM_WORDS)[i],
                               100 * plane + first + i)
@@ -187,7 +187,7 @@ TEST_F(FilmStrips, AreReplacedAsOne) {
     const auto filled = [](std::uint32_t first, std::uint32_t count, std::uint32_t offset) {
         pt::PixelSums sums;
         sums.resize(count);
-        for (std::uint32_t plane = 0; plane < pt::PixelSums::words_per_pixel; ++plane)
+        for (std::uint32_t plane = 0; plane < pt::film_planes(false); ++plane)
             for (std::uint32_t i = 0; i < count; ++i)
                 sums.plane(plane / pt::gpu::FILM_WORDS, plane % pt::gpu::FILM_WORDS)[i] =
                     100 * plane + first + i + offset;

@@ -40,8 +40,9 @@ void give(Samples &samples, const pt::Rectangle &tile, const std::set<std::uint3
             samples[{y, x}].insert(indices.begin(), indices.end());
 }
 
-Bytes film_by_sample(const Samples &samples) {
-    return film_maker::film_of(film_maker::identity(image_width, image_height), film_maker::tiles_of(samples), samples);
+Bytes film_by_sample(const Samples &samples, bool has_coverage = false) {
+    return film_maker::film_of(film_maker::identity(image_width, image_height, has_coverage),
+                               film_maker::tiles_of(samples), samples);
 }
 
 struct Part {
@@ -49,7 +50,7 @@ struct Part {
     Bytes bytes;
 };
 
-Part random_part(std::mt19937 &random, std::uint32_t first) {
+Part random_part(std::mt19937 &random, std::uint32_t first, bool has_coverage) {
     const std::pair<std::uint32_t, std::uint32_t> grids[] = {
         {image_width, image_height}, {8, 8}, {image_width, 4}, {5, 3}};
     const auto [width, height] = grids[random() % std::size(grids)];
@@ -68,7 +69,8 @@ Part random_part(std::mt19937 &random, std::uint32_t first) {
         }
         give(part.samples, tile, indices);
     }
-    part.bytes = film_maker::film_of(film_maker::identity(image_width, image_height), tiles, part.samples);
+    part.bytes =
+        film_maker::film_of(film_maker::identity(image_width, image_height, has_coverage), tiles, part.samples);
     return part;
 }
 
@@ -77,12 +79,13 @@ TEST(Film, SumsHaveTheBytesOfTheirSamplesInAnyOrder) {
     for (int round = 0; round < 40; ++round) {
         std::vector<Part> parts;
         Samples all;
+        const bool has_coverage = round % 2 == 1;
         for (std::uint32_t i = 0; i < 2 + random() % 4; ++i) {
-            parts.push_back(random_part(random, 10 * i));
+            parts.push_back(random_part(random, 10 * i, has_coverage));
             for (const auto &[pixel, indices] : parts.back().samples)
                 all[pixel].insert(indices.begin(), indices.end());
         }
-        const Bytes expected = film_by_sample(all);
+        const Bytes expected = film_by_sample(all, has_coverage);
         for (int order = 0; order < 3; ++order) {
             std::ranges::shuffle(parts, random);
             pt::Film sum(parts.front().bytes);
@@ -155,6 +158,24 @@ TEST(Film, MeansAndErrorsAreRoundedOnce) {
               });
 }
 
+TEST(Film, CoverageIsTheShareOfTheSamples) {
+    Samples samples;
+    give(samples, {0, 0, image_width, image_height}, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10});
+    give(samples, {3, 2, 7, 5}, {40, 41});
+    const pt::Film film(film_by_sample(samples, true));
+    EXPECT_TRUE(film.facts().has_coverage);
+    film.read(
+        film.bounds(), PT_QUANTITY_COVERAGE, [&](std::uint32_t x, std::uint32_t y, const std::vector<float> &values) {
+            for (std::uint32_t i = 0; i < values.size(); ++i) {
+                const film_maker::Pixel pixel{y, x + i / 3};
+                const std::set<std::uint32_t> &indices = samples.at(pixel);
+                const double share = 1.0 * film_maker::covered_of(pixel, indices) / static_cast<double>(indices.size());
+                ASSERT_EQ(values[i], static_cast<float>(share)) << y << ' ' << x << ' ' << i;
+            }
+        });
+    EXPECT_FALSE(pt::Film(film_by_sample(samples)).facts().has_coverage);
+}
+
 void seal(Bytes &bytes) {
     const std::size_t checked = bytes.size() - sizeof(std::uint64_t);
     const std::uint64_t checksum = pt::checksum(std::span(bytes).first(checked));
@@ -178,6 +199,8 @@ TEST(Film, WhatDoesNotBelongChangesNothing) {
     seed[5].value = "7";
     Samples others;
     give(others, {0, 0, image_width, image_height}, {3, 4});
+    EXPECT_EQ(refusal(film_maker::identity(image_width, image_height, true), others),
+              "film.coverage = 1: must be absent");
     EXPECT_EQ(refusal(seed, others), "film.seed = 7: must be 18446744073709551615, as in the film that it is added to");
     give(others, {8, 8, 4, 4}, {1});
     EXPECT_EQ(refusal(same, others),
@@ -209,12 +232,15 @@ TEST(Film, WhatNoPictureHasIsRefused) {
     without.erase(without.begin() + 5);
     EXPECT_EQ(refusal(without, grid(image_width, image_height)),
               "film.seed = nothing: must be from 0 to 18446744073709551615");
-    Bytes unharmed = film_maker::film_of(good, grid(8, 8), samples);
-    const pt::Film film(unharmed);
-    unharmed[unharmed.size() - 100] ^= std::byte{1}; // A pixel's count, although the checksum is valid.
-    seal(unharmed);
-    EXPECT_EQ(error_of([&] { const pt::Film damaged(unharmed); }).what(),
-              std::string("film: sums that its samples cannot have"));
+    for (const bool has_coverage : {false, true}) {
+        Bytes unharmed =
+            film_maker::film_of(film_maker::identity(image_width, image_height, has_coverage), grid(8, 8), samples);
+        const pt::Film film(unharmed);
+        unharmed[unharmed.size() - 100] ^= std::byte{2}; // a count; the checksum is valid
+        seal(unharmed);
+        EXPECT_EQ(error_of([&] { const pt::Film damaged(unharmed); }).what(),
+                  std::string("film: sums that its samples cannot have"));
+    }
 }
 
 } // namespace

@@ -154,8 +154,8 @@ TEST(BufferImage, BrokenRulesAreNamed) {
               i.size_bytes = 1000;
           },
           "image.buffer = 0: must be a VkBuffer\nimage.offset_bytes = 18: must be a multiple of 4\n"
-          "image.quantity = 3: must be PT_QUANTITY_RADIANCE, PT_QUANTITY_STANDARD_ERROR or PT_QUANTITY_SAMPLE_COUNT "
-          "here: only pt_readback reads first hits\n"
+          "image.quantity = 3: must be PT_QUANTITY_RADIANCE, PT_QUANTITY_STANDARD_ERROR, PT_QUANTITY_SAMPLE_COUNT "
+          "or PT_QUANTITY_COVERAGE here: only pt_readback reads first hits\n"
           "image.row_bytes = 62: must be a multiple of 4"},
          {[](pt_buffer_image &i) { --i.size_bytes; },
           "image.size_bytes = 199: must be >= offset_bytes + (height - 1) * row_bytes + width * 12 (20 + 2 * 60 + 60)"},

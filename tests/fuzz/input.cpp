@@ -94,7 +94,7 @@ void read_render(Numbers &numbers, ByteReader &bytes, pt_render &render) {
     render.first_sample = bytes.one_in(8) ? bytes.raw<std::uint32_t>() : 0;
     render.first_row = numbers.count(render.height > 0 && render.height <= 4 ? render.height : 1);
     render.row_count = bytes.one_in(8) ? numbers.count(3) : 0;
-    render.reserved = numbers.count(1);
+    render.flags = numbers.count(PT_RENDER_COVERAGE + 1);
 }
 
 void read_claims(ByteReader &bytes, Input &input) {

@@ -188,7 +188,9 @@ TEST_F(Capsules, AreSeenInParallel) {
     }
     given.capsules = {{{-1, 0.25, 0}, {1, -0.25, 0}, 0.5, 1}};
     given.camera.vertical_extent = 4.0;
-    image(given, 64);
+    pt_render render = picture_of(PT_SAMPLER_SOBOL);
+    render.flags = PT_RENDER_COVERAGE;
+    render_image(context(), given.scene(), given.camera, render, 64);
     double covered = 0.0;
     for (const float share : read(PT_QUANTITY_COVERAGE))
         covered += share / (3.0 * picture.x * picture.y);

@@ -48,7 +48,9 @@ struct Hiding {
 class HiddenFromCamera : public ContextFixture {
 protected:
     std::vector<float> image_of(const Hiding &given, const pt_render &render, std::uint32_t samples) {
-        return render_image(context(), given.scene(), given.camera, render, samples);
+        pt_render counted = render;
+        counted.flags = PT_RENDER_COVERAGE;
+        return render_image(context(), given.scene(), given.camera, counted, samples);
     }
 
     std::vector<float> coverage() {

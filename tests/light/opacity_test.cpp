@@ -34,7 +34,10 @@ protected:
     }
 
     double share_covered(const std::vector<Given::Capsule> &capsules) {
-        image(black(capsules), 256);
+        const Given given = black(capsules);
+        pt_render render = picture_of(PT_SAMPLER_SOBOL);
+        render.flags = PT_RENDER_COVERAGE;
+        render_image(context(), given.scene(), given.camera, render, 256);
         std::vector<float> covered(std::size_t{3} * picture.x * picture.y);
         const pt_image target = image_target(covered, PT_QUANTITY_COVERAGE);
         EXPECT_EQ(pt_readback(context(), &target), PT_OK) << pt_last_error(context());

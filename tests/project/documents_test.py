@@ -13,7 +13,7 @@ CODE = re.compile(r"\.(h|c|cpp|glsl|comp|diff|py|json|csv|cmake|sh)$|^CMakeLists
 # The largest numbers of words: of each page, and of all pages except the changes.
 MOST_WORDS = {"README.md": 1230, "CONTRIBUTING.md": 1400, "cli/README.md": 4850, "shaders/README.md": 6320,
               "shaders/COURSEWORK.md": 1600, "tests/bench/README.md": 1500}
-MOST_WORDS_IN_ALL = 24_668
+MOST_WORDS_IN_ALL = 24_700
 
 # Each row has a pattern for pages, a file, and a pattern for this file. The groups of both patterns must be equal.
 NUMBERS = (

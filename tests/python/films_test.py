@@ -33,6 +33,22 @@ class Films(unittest.TestCase):
             self.assertEqual(total.to_bytes(), self.whole.to_bytes())
         self.assertNotEqual(first + second, self.whole)
 
+    def test_coverage_adds_too(self):
+        later, earlier = (self.film(first, 4, coverage=True) for first in (4, 0))
+        whole = self.film(0, 8, coverage=True)
+        image = self.context.image()
+        self.assertEqual(later + earlier, whole)
+        self.assertEqual((whole.info.coverage, self.whole.info.coverage), (True, False))
+        np.testing.assert_array_equal(whole.image().coverage, image.coverage)
+        self.assertEqual(image.coverage.shape, (HEIGHT, WIDTH))
+        self.assertTrue(((image.coverage > 0) & (image.coverage < 1)).any())
+        np.testing.assert_array_equal(self.film(0, 8).readback(), image.radiance)
+        self.assertIsNone(self.image.coverage)
+        with self.assertRaisesRegex(pt.InvalidArgumentError, "PT_RENDER_COVERAGE"):
+            self.whole.readback(pt.Quantity.COVERAGE)
+        with self.assertRaisesRegex(pt.IncompatibleError, "film.coverage"):
+            whole + self.film(8, 1)
+
     def test_a_sum_leaves_its_terms(self):
         first, second, _ = self.parts
         before = first.to_bytes()

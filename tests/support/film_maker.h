@@ -20,19 +20,22 @@ using Bytes = std::vector<std::byte>;
 using Pixel = std::pair<std::uint32_t, std::uint32_t>;
 using Samples = std::map<Pixel, std::set<std::uint32_t>>;
 
-inline pt::FilmIdentity identity(std::uint32_t width, std::uint32_t height) {
-    return {{"scene", "00112233445566778899aabbccddeeff"},
-            {"camera", "ffeeddccbbaa99887766554433221100"},
-            {"width", std::to_string(width)},
-            {"height", std::to_string(height)},
-            {"max_path_length", "6"},
-            {"seed", "18446744073709551615"},
-            {"estimator", "5"},
-            {"sampler", "4"},
-            {"unit_exponent", "-3"},
-            {"estimator_version", "1"},
-            {"kernel", "0123456789abcdef0123456789abcdef"},
-            {"device", "a device, its driver 1.2"}};
+inline pt::FilmIdentity identity(std::uint32_t width, std::uint32_t height, bool has_coverage = false) {
+    pt::FilmIdentity facts{{"scene", "00112233445566778899aabbccddeeff"},
+                           {"camera", "ffeeddccbbaa99887766554433221100"},
+                           {"width", std::to_string(width)},
+                           {"height", std::to_string(height)},
+                           {"max_path_length", "6"},
+                           {"seed", "18446744073709551615"},
+                           {"estimator", "5"},
+                           {"sampler", "4"},
+                           {"unit_exponent", "-3"},
+                           {"estimator_version", "1"},
+                           {"kernel", "0123456789abcdef0123456789abcdef"},
+                           {"device", "a device, its driver 1.2"}};
+    if (has_coverage)
+        facts.insert(facts.begin() + 8, {"coverage", "1"});
+    return facts;
 }
 
 inline pt::SampleSet set_of(const std::set<std::uint32_t> &indices) {
@@ -50,6 +53,16 @@ inline std::uint64_t mixed(std::uint64_t number) {
 
 inline bool is_rejected(const Pixel &pixel, std::uint32_t index) {
     return mixed(pixel.first * 7919U + pixel.second * 104729U + index) % 16 == 0;
+}
+
+// Two of 3 samples hit a surface.
+inline bool is_covered(const Pixel &pixel, std::uint32_t index) {
+    return mixed(pixel.first * 104729U + pixel.second * 7919U + index) % 3 != 0;
+}
+
+inline std::uint32_t covered_of(const Pixel &pixel, const std::set<std::uint32_t> &indices) {
+    return static_cast<std::uint32_t>(
+        std::ranges::count_if(indices, [&](std::uint32_t index) { return is_covered(pixel, index); }));
 }
 
 __extension__ using Wide = unsigned __int128;
@@ -77,6 +90,8 @@ inline void set_pixel(pt::PixelSums &sums, std::size_t at, const Pixel &pixel, c
         sums.plane(part, pt::gpu::FILM_ACCEPTED)[at] = counts[part][0];
         sums.plane(part, pt::gpu::FILM_REJECTED)[at] = counts[part][1];
     }
+    if (sums.has_coverage())
+        sums.plane(pt::gpu::FILM_COVERED)[at] = covered_of(pixel, indices);
 }
 
 inline Bytes film_of(const pt::FilmIdentity &identity, const std::vector<pt::Rectangle> &tiles, const Samples &samples,
@@ -89,7 +104,7 @@ inline Bytes film_of(const pt::FilmIdentity &identity, const std::vector<pt::Rec
     for (std::size_t i = 0; i < tiles.size(); ++i) {
         const auto &[x, y, width, height] = tiles[i];
         pt::PixelSums sums;
-        sums.resize(tiles[i].pixel_count());
+        sums.resize(tiles[i].pixel_count(), pt::has_coverage(identity));
         const std::uint64_t split = pt::split_of(header.tiles[i].samples.hull());
         for (std::uint32_t row = 0; row < height; ++row)
             for (std::uint32_t column = 0; column < width; ++column)

@@ -15,9 +15,10 @@ extern "C" {
 
 /** Writes the samples so far as exact sums, with everything that determines their bits, and a checksum.
  *
- * If data is NULL, *size_bytes receives the film's size, at most 112 bytes a pixel and some hundred more. Otherwise
- * *size_bytes is the size of data, and receives the number of bytes written. Equal samples of equal pictures give equal
- * bytes. lib/film/FORMAT.md describes the bytes. Later versions of this library can read them.
+ * If data is NULL, *size_bytes receives the film's size, at most 112 bytes a pixel (116 with PT_RENDER_COVERAGE) and
+ * some hundred more. Otherwise *size_bytes is the size of data, and receives the number of bytes written. Equal samples
+ * of equal pictures give equal bytes. lib/film/FORMAT.md describes the bytes. Later versions of this library can read
+ * them.
  *
  * One thread at a time. PT_ERROR_INVALID_STATE: there is no sample. PT_ERROR_INVALID_ARGUMENT: *size_bytes is too
  * small. After a failure *size_bytes is unchanged, and data is undefined. */
@@ -62,6 +63,8 @@ typedef struct pt_film_info {
      * smaller than a pixel. 0: there are no such lamps. */
     uint32_t lamp_sample_count;
     const char *device; /**< models and drivers of the devices that took the samples; ASCII, owned by the film */
+    uint32_t flags;     /**< as in pt_render: PT_RENDER_COVERAGE if the film has coverage */
+    uint32_t reserved;  /**< 0 */
 } pt_film_info;
 
 /** A rectangle of the image whose pixels have the same samples. */
@@ -80,7 +83,7 @@ typedef struct pt_sample_range {
     uint64_t end;   /**< > first, <= 2^32 */
 } pt_sample_range;
 
-/** Opens a film from its bytes, which are copied and checked. It takes 112 bytes of memory a pixel.
+/** Opens a film from its bytes, which are copied and checked. It takes 112 bytes of memory a pixel, 116 with coverage.
  *
  * On success the caller owns the film and frees it by pt_close_film. On failure *film is NULL. Any thread.
  * PT_ERROR_INCOMPATIBLE: the bytes are not a film, or are damaged. */
@@ -108,12 +111,12 @@ typedef int32_t (*pt_take_bytes_fn)(void *user, const void *data, uint64_t size_
  * function on this film. One thread at a time. PT_CANCELLED: take ended the call. */
 PT_API pt_result pt_stream_film(const pt_film *film, pt_take_bytes_fn take, void *user);
 
-/** Writes mean radiance, its standard error or the counts of samples, with the bits of pt_readback for the same
- * samples.
+/** Writes mean radiance, its standard error, the counts of samples or coverage, with the bits of pt_readback for the
+ * same samples.
  *
  * The image is the rectangle of pt_film_info, so pt_image.x counts from its first column and pt_image.y from its first
  * row. Pixels that the film lacks are black, with a standard error of INFINITY. One thread at a time.
- * PT_ERROR_INVALID_ARGUMENT: the image asks for first hits or coverage. */
+ * PT_ERROR_INVALID_ARGUMENT: the image asks for first hits, or for coverage of a film without it. */
 PT_API pt_result pt_read_film(const pt_film *film, const pt_image *image);
 
 /** Describes a film. One thread at a time. */

@@ -266,6 +266,13 @@ enum {
 /** The default of pt_render.max_path_length. */
 #define PT_DEFAULT_MAX_PATH_LENGTH 6u
 
+/** Bits of pt_render.flags. */
+enum {
+    /** samples whose camera rays hit a surface are counted, for PT_QUANTITY_COVERAGE. It takes 4 more bytes a pixel. No
+     * bit of the radiance changes. */
+    PT_RENDER_COVERAGE = 1
+};
+
 /** The size of the image and the method of rendering.
  *
  * An image too large for a device can be rendered in pieces of rows with the same bits. Each piece is read back as an
@@ -279,7 +286,7 @@ typedef struct pt_render {
     uint32_t first_sample;    /**< index of the first sample; parts of one sequence can be taken separately */
     uint32_t estimator;       /**< PT_ESTIMATOR_* */
     uint32_t sampler;         /**< PT_SAMPLER_* */
-    uint32_t reserved;        /**< 0 */
+    uint32_t flags;           /**< PT_RENDER_* */
     uint32_t first_row;       /**< first row that is rendered */
     uint32_t row_count;       /**< rows that are rendered; 0: all from first_row on */
 } pt_render;
@@ -354,7 +361,7 @@ enum {
      * PT_FORMAT_R32UI. */
     PT_QUANTITY_OBJECT = 6,
     /** fraction of the pixel's samples whose camera rays hit a surface, the same in all channels. It is the alpha of
-     * the mean radiance, which is already multiplied by it. Every read traces these camera rays again. */
+     * the mean radiance, which is already multiplied by it. The samples must be taken with PT_RENDER_COVERAGE. */
     PT_QUANTITY_COVERAGE = 7
 };
 
@@ -517,8 +524,8 @@ PT_API pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *in
 /** Writes a PT_QUANTITY_* of all pixels or a rectangle.
  *
  * After a failure the contents of image->data are undefined. One thread at a time. PT_ERROR_INVALID_STATE: there is no
- * sample or, for first hits, no scene, camera or render settings. First hits and coverage can also fail as pt_prepare
- * does. */
+ * sample or, for first hits, no scene, camera or render settings. First hits can also fail as pt_prepare does.
+ * PT_ERROR_INVALID_ARGUMENT: also coverage without PT_RENDER_COVERAGE. */
 PT_API pt_result pt_readback(pt_context *context, const pt_image *image);
 
 #ifdef __cplusplus

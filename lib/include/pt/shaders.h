@@ -3,9 +3,9 @@
  *
  * pt_create_info.shader_dir is a folder of GLSL files like the library's shaders/. pt_create compiles them, and
  * pt_reload_shaders compiles them again: pathtrace.comp, fold.comp, add.comp, resolve.comp, estimate.comp,
- * accuracy.comp, first_hit.comp and coverage.comp. Included files are beside the including file or in this folder. A
- * relative path is relative to the working directory at the time of the call. The host code shares gpu_layout.h, so do
- * not change the layout of memory. A kernel with a new binding gives PT_ERROR_SHADER.
+ * accuracy.comp and first_hit.comp. Included files are beside the including file or in this folder. A relative path is
+ * relative to the working directory at the time of the call. The host code shares gpu_layout.h, so do not change the
+ * layout of memory. A kernel with a new binding gives PT_ERROR_SHADER.
  *
  * The compiler is the module libpt-glsl.so. It is in a folder pt beside the library (or beside the program, if the
  * library is static), or where the system finds libraries. Without the module the calls return PT_ERROR_UNSUPPORTED.

@@ -65,7 +65,7 @@ struct pt_vulkan {
  *   pt_readback_to_buffer wait for this call, and the queue orders other changes of the context's memory. */
 typedef struct pt_buffer_image {
     uint32_t struct_size;      /**< sizeof(pt_buffer_image) */
-    uint32_t quantity;         /**< PT_QUANTITY_RADIANCE, STANDARD_ERROR or SAMPLE_COUNT: see pt_readback */
+    uint32_t quantity;         /**< PT_QUANTITY_RADIANCE, STANDARD_ERROR, SAMPLE_COUNT or COVERAGE */
     uint64_t buffer;           /**< VkBuffer, cast to uint64_t also where handles are pointers; never 0 */
     uint64_t offset_bytes;     /**< where the first pixel begins, a multiple of 4 */
     uint64_t size_bytes;       /**< the buffer's size; at least offset_bytes plus the least pt_image.size_bytes */

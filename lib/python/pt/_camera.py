@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from pt import _structs as structs
 from pt._columns import check_finite, real_column
-from pt._enums import Estimator, Projection, Sampler
+from pt._enums import Estimator, Projection, RenderFlag, Sampler
 from pt._fit import SIDES, Extents, apex, pyramid, reach
 from pt._vectors import Vector, vector
 
@@ -137,6 +137,7 @@ class RenderSettings:
     first_sample      index of the first sample; films of different index ranges can be added
     first_row         first row to render; the rows are read back as an image
     row_count         0: all rows from first_row on
+    coverage          whether samples that hit a surface are counted, for Image.coverage and Quantity.COVERAGE
     """
 
     width: int
@@ -148,6 +149,7 @@ class RenderSettings:
     sampler: Sampler = Sampler.BEST
     first_row: int = 0
     row_count: int = 0
+    coverage: bool = False
 
     def _struct(self) -> structs.pt_render:
         for name, bits in (("width", 32), ("height", 32), ("max_path_length", 32), ("seed", 64), ("first_sample", 32),
@@ -157,7 +159,7 @@ class RenderSettings:
         return structs.pt_render(
             width=self.width, height=self.height, max_path_length=self.max_path_length, seed=self.seed,
             first_sample=self.first_sample, estimator=self.estimator, sampler=self.sampler, first_row=self.first_row,
-            row_count=self.row_count)
+            row_count=self.row_count, flags=RenderFlag.COVERAGE * self.coverage)
 
     def shape(self) -> tuple[int, int]:
         return self.row_count or self.height - self.first_row, self.width

@@ -125,7 +125,7 @@ class Context:
         self._call("pt_set_camera", camera._struct())
 
     def set_render(self, settings: RenderSettings) -> None:
-        """Discards all samples. Takes 112 bytes a pixel of device memory. After UnsupportedError or
+        """Discards all samples. Takes 112 bytes a pixel of device memory, 116 with coverage. After UnsupportedError or
         OutOfDeviceMemoryError, render fewer rows at a time."""
         self._call("pt_set_render", settings._struct())
         self._settings = settings
@@ -221,7 +221,8 @@ class Context:
         settings = self._rendered()
         return Image(self.readback(Quantity.RADIANCE), self.readback(Quantity.STANDARD_ERROR),
                      self.readback(Quantity.SAMPLE_COUNT), self.error_estimate(), self.stats(),
-                     sampler=settings.sampler, estimator=settings.estimator)
+                     sampler=settings.sampler, estimator=settings.estimator,
+                     coverage=self.readback(Quantity.COVERAGE) if settings.coverage else None)
 
     def render(self, scene: Scene, camera: Camera, settings: RenderSettings, samples: int, *,
                target_error: float = 0.0, progress: Progress | None = None, denoise: bool = False) -> Image:

@@ -93,7 +93,8 @@ def render_denoised(context: Context, settings: RenderSettings, samples: int, ta
                 break
             taken += count - done
             films[index] = context.film() if target_error else None
-            parts.append((context.readback(), context.stats()))
+            coverage = context.readback(Quantity.COVERAGE) if settings.coverage else None
+            parts.append((context.readback(), context.stats(), coverage))
         if len(parts) < len(halves):
             break
         guides = guides or (context.readback(Quantity.ALBEDO), context.readback(Quantity.NORMAL))
@@ -103,11 +104,13 @@ def render_denoised(context: Context, settings: RenderSettings, samples: int, ta
     return image
 
 
-def _joined(parts: list[tuple[Pixels, Stats]], guides: tuple[Pixels, ...], settings: RenderSettings) -> Image:
-    (first, of_first), (second, of_second) = parts
+def _joined(parts: list[tuple[Pixels, Stats, Pixels | None]], guides: tuple[Pixels, ...], settings: RenderSettings) -> Image:
+    (first, of_first, coverage), (second, of_second, other_coverage) = parts
+    if coverage is not None and other_coverage is not None:
+        coverage = (coverage + other_coverage) / 2
     radiance, error = denoise(first, second, *guides)
     summed = ("sample_count", "max_sample_count", "mean_sample_count", "rejected_samples")
     stats = replace(of_second, **{name: getattr(of_first, name) + getattr(of_second, name) for name in summed})
     counts = np.full((*first.shape[:2], 1), stats.sample_count)
     return Image(radiance, np.abs(first - second) / 2, counts, error, stats, raw=(first + second) / 2,
-                 sampler=settings.sampler, estimator=settings.estimator)
+                 sampler=settings.sampler, estimator=settings.estimator, coverage=coverage)

@@ -88,6 +88,12 @@ class LogLevel(enum.IntEnum):
     INFO = 3  # devices, the kernels that drivers build, and how long that takes
 
 
+class RenderFlag(enum.IntFlag):
+    """Options of a rendering; see RenderSettings."""
+
+    COVERAGE = 1  # samples whose camera rays hit a surface are counted, for PT_QUANTITY_COVERAGE
+
+
 class CreateFlag(enum.IntFlag):
     """Options of a context; see Context."""
 

@@ -13,7 +13,7 @@ import numpy.typing as npt
 from pt import _structs as structs
 from pt import _zstd
 from pt._callbacks import CallbackGuard
-from pt._enums import Estimator, Format, Quantity, Result, Sampler
+from pt._enums import Estimator, Format, Quantity, RenderFlag, Result, Sampler
 from pt._errors import IncompatibleError
 from pt._files import Path, regular, write_atomically
 from pt._image import Image
@@ -38,6 +38,7 @@ class FilmInfo:
     sampler: Sampler
     lamp_sample_count: int  # samples of a pixel that hit all visible lamps smaller than a pixel; 0 without such lamps
     device: str  # models and drivers
+    coverage: bool  # as in RenderSettings
 
 
 @dataclass(frozen=True)
@@ -144,9 +145,9 @@ class Film:
         struct = structs.pt_film_info()
         with self._lock:
             self._call("pt_get_film_info", struct)
-            values: dict[str, Any] = {name: getattr(struct, name) for name in FilmInfo.__dataclass_fields__}
+            values: dict[str, Any] = {name: getattr(struct, name, None) for name in FilmInfo.__dataclass_fields__}
             values.update(device=struct.device.decode(errors="replace"), estimator=Estimator(struct.estimator),
-                          sampler=Sampler(struct.sampler))
+                          sampler=Sampler(struct.sampler), coverage=bool(struct.flags & RenderFlag.COVERAGE))
             return FilmInfo(**values)
 
     @property
@@ -184,7 +185,8 @@ class Film:
             info = self.info
             return Image(self.readback(Quantity.RADIANCE), self.readback(Quantity.STANDARD_ERROR),
                          self.readback(Quantity.SAMPLE_COUNT), self.error_estimate(), self.stats(),
-                         sampler=info.sampler, estimator=info.estimator)
+                         sampler=info.sampler, estimator=info.estimator,
+                         coverage=self.readback(Quantity.COVERAGE) if info.coverage else None)
 
     def plan(self, target_error: float, most: int) -> tuple[Result, npt.NDArray[np.uint32]]:
         """Plans the next samples towards a target error, as Context.accumulate does. One machine can plan while others

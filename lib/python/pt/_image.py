@@ -20,6 +20,8 @@ class Image:
     error_estimate   for the whole image
     stats            counts and costs
     exposure         stops for _repr_png_ and save; None: automatic
+    coverage         the picture's alpha, shape (height, width), float32: the share of a pixel's samples that hit a
+                     surface; None unless RenderSettings.coverage asked for it
     raw              for a denoised image the mean of the samples, to which standard_error belongs; else None
     sampler, estimator   of the settings; BEST also if unknown
     """
@@ -27,7 +29,8 @@ class Image:
     def __init__(self, radiance: npt.NDArray[np.float32], standard_error: npt.NDArray[np.float32],
                  sample_count: npt.NDArray[Any], error_estimate: ErrorEstimate, stats: Stats,
                  exposure: float | None = None, raw: npt.NDArray[np.float32] | None = None,
-                 sampler: Sampler = Sampler.BEST, estimator: Estimator = Estimator.BEST) -> None:
+                 sampler: Sampler = Sampler.BEST, estimator: Estimator = Estimator.BEST,
+                 coverage: npt.NDArray[np.float32] | None = None) -> None:
         self.radiance = radiance
         self.raw = raw
         self.standard_error = standard_error
@@ -37,6 +40,7 @@ class Image:
         self.exposure = exposure
         self.sampler = sampler
         self.estimator = estimator
+        self.coverage = None if coverage is None else coverage[:, :, 0]
 
     @property
     def shape(self) -> tuple[int, ...]:

@@ -60,7 +60,7 @@ class pt_camera(Sized):
 class pt_render(Sized):
     _fields_ = [("struct_size", c_uint32), ("width", c_uint32), ("height", c_uint32), ("max_path_length", c_uint32),
                 ("seed", c_uint64), ("first_sample", c_uint32), ("estimator", c_uint32), ("sampler", c_uint32),
-                ("reserved", c_uint32), ("first_row", c_uint32), ("row_count", c_uint32)]
+                ("flags", c_uint32), ("first_row", c_uint32), ("row_count", c_uint32)]
 
 
 class pt_accumulate_info(Sized):
@@ -137,7 +137,7 @@ class pt_film_info(Sized):
     _fields_ = [("struct_size", c_uint32), ("width", c_uint32), ("height", c_uint32), ("x", c_uint32), ("y", c_uint32),
                 ("columns", c_uint32), ("rows", c_uint32), ("max_path_length", c_uint32), ("seed", c_uint64),
                 ("estimator", c_uint32), ("sampler", c_uint32), ("tile_count", c_uint32),
-                ("lamp_sample_count", c_uint32), ("device", c_char_p)]
+                ("lamp_sample_count", c_uint32), ("device", c_char_p), ("flags", c_uint32), ("reserved", c_uint32)]
 
 
 class pt_film_tile(Sized):
