@@ -37,7 +37,7 @@ std::string verdict_text(const CourseVerdict &verdict) {
         return "right";
     if (!verdict.other_light.empty())
         return "wrong: " + verdict.other_light;
-    if (verdict.fitting == nullptr)
+    if (!verdict.fitting)
         return "wrong: no usual mistake fits";
     return "wrong: " + verdict.fitting->name + ". " + verdict.fitting->hint;
 }

@@ -381,26 +381,26 @@ SceneFile equal_light(const char *name, std::uint32_t length, std::uint32_t esti
 // Points of 2's directions, of 3's functions and of 6 are the exercise's; others divide the rest.
 const std::vector<CourseStep> &course_steps() {
     static const std::vector<CourseStep> steps{
-        {"1", "emission", 10, measure_emission, emission_patterns(), {}},
-        {"2", "directions and bounces", 16, measure_directions, direction_patterns(), {}},
-        {"3", "geometric term, reflectance, throughput", 20, measure_throughput, throughput_patterns(),
+        {"1", "emission", 10, measure_emission, emission_patterns, {}},
+        {"2", "directions and bounces", 16, measure_directions, direction_patterns, {}},
+        {"3", "geometric term, reflectance, throughput", 20, measure_throughput, throughput_patterns,
          [] { return equal_light("coursework.json", 3, PT_ESTIMATOR_UNIFORM); }},
-        {"4", "numbers by dimension", 20, measure_numbers, number_patterns(), {}},
-        {"5", "box filter", 8, measure_filter, filter_patterns(), {}},
-        {"6a", "directions by the geometric term", 12, measure_cosine, cosine_patterns(),
+        {"4", "numbers by dimension", 20, measure_numbers, number_patterns, {}},
+        {"5", "box filter", 8, measure_filter, filter_patterns, {}},
+        {"6a", "directions by the geometric term", 12, measure_cosine, cosine_patterns,
          [] { return equal_light("coursework-diffuse.json", 2, PT_ESTIMATOR_COSINE); }},
-        {"6b", "lamps of very different emission", 6, measure_lamps, lamp_patterns(),
+        {"6b", "lamps of very different emission", 6, measure_lamps, lamp_patterns,
          [] { return equal_light("coursework-lamps.json", 2, PT_ESTIMATOR_LIGHT); }},
-        {"6c", "lamps out of the frame", 2, measure_outside, outside_patterns(),
+        {"6c", "lamps out of the frame", 2, measure_outside, outside_patterns,
          [] { return equal_light("coursework-outside.json", 2, PT_ESTIMATOR_LIGHT); }},
-        {"7", "motion", 6, measure_motion, motion_patterns(),
+        {"7", "motion", 6, measure_motion, motion_patterns,
          [] { return equal_light("coursework-motion.json", 2, PT_ESTIMATOR_LIGHT); }},
     };
     return steps;
 }
 
 CourseVerdict check_step(CourseKernels &kernels, const CourseStep &step) {
-    CourseVerdict verdict = judge(step.measure(kernels), step.patterns);
+    CourseVerdict verdict = judge(step.measure(kernels), step.patterns());
     if (verdict.is_right() && step.same_light) {
         const LightVerdict light = kernels.compare(step.same_light());
         if (light.is_different())

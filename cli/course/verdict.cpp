@@ -36,7 +36,7 @@ CourseVerdict judge(std::vector<Measured> measured, std::span<const Pattern> pat
         best = right;
     if (misfit(measured, *best) > 1.0)
         best = nullptr;
-    return {std::move(measured), right->values, best, ""};
+    return {std::move(measured), right->values, best ? std::optional(*best) : std::nullopt, ""};
 }
 
 } // namespace cli

@@ -4,6 +4,7 @@
 #include "cli/course/measured.h"
 
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -37,16 +38,16 @@ struct Pattern {
 struct CourseVerdict {
     std::vector<Measured> measured;
     std::vector<Range> expected; // of the right pattern that is nearest
-    const Pattern *fitting;      // nullptr if no pattern fits
-    std::string other_light;     // summary of a test for equal light that failed, otherwise empty
+    std::optional<Pattern> fitting;
+    std::string other_light; // summary of a test for equal light that failed, otherwise empty
 
-    bool is_right() const { return fitting != nullptr && fitting->is_right() && other_light.empty(); }
+    bool is_right() const { return fitting && fitting->is_right() && other_light.empty(); }
 };
 
 // Returns the largest deviation from the pattern in units of the measurements' bounds.
 double misfit(std::span<const Measured> measured, const Pattern &pattern);
 
-// patterns must outlive the verdict and have a right one.
+// patterns must have a right one.
 CourseVerdict judge(std::vector<Measured> measured, std::span<const Pattern> patterns);
 
 } // namespace cli
