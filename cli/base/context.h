@@ -47,6 +47,20 @@ std::string in_words_of_options(const BrokenRule &rule);
 // Without a context, returns the thread's last error.
 LibraryError last_error(const pt_context *context);
 
+// For calls without a context.
+inline void require(pt_result result) {
+    if (result < 0)
+        throw Failure(exit_code_of(result), pt_last_error(nullptr));
+}
+
+// Both texts may be empty. They must outlive the result.
+inline pt_create_info create_info(const std::string &device, const std::string &shader_dir) {
+    auto info = sized<pt_create_info>();
+    info.device = device.empty() ? nullptr : device.c_str();
+    info.shader_dir = shader_dir.empty() ? nullptr : shader_dir.c_str();
+    return info;
+}
+
 class Context {
 public:
     // Keeps kernels in the user's cache. Sets environment variables, so no other thread may run.

@@ -1,7 +1,7 @@
 #include "cli/base/devices.h"
 
+#include "cli/base/context.h"
 #include "cli/base/environment.h"
-#include "cli/base/exit_code.h"
 #include "cli/base/json.h"
 #include "cli/base/text.h"
 #include "cli/commands.h"
@@ -28,8 +28,7 @@ std::vector<pt_device_info> list_devices() {
         result = pt_get_devices(devices.data(), &count);
         devices.resize(count);
     }
-    if (result < 0)
-        throw Failure(exit_code_of(result), pt_last_error(nullptr));
+    require(result);
     return devices;
 }
 

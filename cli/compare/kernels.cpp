@@ -46,20 +46,13 @@ private:
     std::uint32_t samples_ = 0;
 };
 
-pt_create_info create_info(const KernelTask &task, const char *shader_dir) {
-    auto info = sized<pt_create_info>();
-    info.device = task.device.empty() ? nullptr : task.device.c_str();
-    info.shader_dir = shader_dir;
-    return info;
-}
-
 } // namespace
 
 LightVerdict compare_kernels(const KernelTask &task, const TellLook &told) {
     SceneFile scene = read_scene_file(task.scene, task.overrides);
     load_columns(scene);
-    const Context edited(create_info(task, task.shader_dir.c_str()));
-    const Context built_in(create_info(task, nullptr));
+    const Context edited(create_info(task.device, task.shader_dir));
+    const Context built_in(create_info(task.device, ""));
     const bool gives_count = scene.gives({{"render", 0, false}, {"spp", 0, false}});
     const std::uint32_t most = gives_count ? scene.sample_count.value() : usual_samples;
     return compare_kernels(edited, built_in, scene, most, task.rule, told);

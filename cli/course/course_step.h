@@ -1,4 +1,4 @@
-// The steps of shaders/COURSEWORK.md: what is measured of each, the right values, and those of usual mistakes.
+// The steps of shaders/COURSEWORK.md. Each has its measurements, and their values for right steps and usual mistakes.
 #pragma once
 
 #include "cli/course/verdict.h"

@@ -11,14 +11,6 @@ namespace cli {
 namespace {
 
 constexpr double standard_errors = 5.4; // exceeded once in ten million by a normal deviate
-constexpr double relative_rounding = 50 * 5 * 0x1p-24;
-
-pt_create_info kernel_info(const std::string &shader_dir, const std::string &device) {
-    auto info = sized<pt_create_info>();
-    info.device = device.empty() ? nullptr : device.c_str();
-    info.shader_dir = shader_dir.empty() ? nullptr : shader_dir.c_str();
-    return info;
-}
 
 // Mean of (a - b)^2 / (m^2 + 0.01) with the mean m of both.
 double relative_difference(const Picture &a, const Picture &b) {
@@ -54,16 +46,16 @@ Measured Picture::mean(const std::string &name, std::size_t channel) const {
         sum += radiance[i];
     const double count = static_cast<double>(radiance.size()) / 3.0;
     const double mean = sum / count;
-    return {name, mean, standard_errors * deviation(channel) / std::sqrt(count) + relative_rounding * std::abs(mean)};
+    return {name, mean, standard_errors * deviation(channel) / std::sqrt(count) + sample_rounding * std::abs(mean)};
 }
 
 CourseKernels::CourseKernels(std::string shader_dir, std::string device) :
     device_(std::move(device)),
-    edited_(kernel_info(shader_dir, device_)) {}
+    edited_(create_info(device_, shader_dir)) {}
 
 const Context &CourseKernels::built_in() {
     if (!built_in_)
-        built_in_.emplace(kernel_info("", device_));
+        built_in_.emplace(create_info(device_, ""));
     return *built_in_;
 }
 

@@ -13,11 +13,6 @@
 namespace cli {
 namespace {
 
-void require(pt_result result) {
-    if (result < 0)
-        throw Failure(exit_code_of(result), pt_last_error(nullptr));
-}
-
 constexpr std::array<std::string_view, 3> digests{"scene", "camera", "kernel"};
 
 std::string words_of(const std::string &path, const BrokenRule &rule) {

@@ -1,6 +1,6 @@
 #include "cli/image/tone_map.h"
 
-#include "cli/base/exit_code.h"
+#include "cli/base/context.h"
 #include "cli/base/tasks.h"
 #include "cli/base/text.h"
 #include "lib/scene_file/enumerations.h"
@@ -8,15 +8,6 @@
 #include <cstddef>
 
 namespace cli {
-namespace {
-
-void require(pt_result result) {
-    if (result < 0)
-        throw Failure(exit_code_of(result), pt_last_error(nullptr));
-}
-
-} // namespace
-
 ToneMap tone_map_for(pt_display_info display, std::span<const float> radiance) {
     const bool is_automatic = display.automatic_exposure != 0;
     if (is_automatic)

@@ -111,10 +111,7 @@ int render_frames(const RenderOptions &options, ValidationLog &log) {
 } // namespace
 
 pt_create_info render_create_info(const RenderOptions &options, ValidationLog &log) {
-    const auto text = [](const std::string &option) { return option.empty() ? nullptr : option.c_str(); };
-    auto info = sized<pt_create_info>();
-    info.device = text(options.device);
-    info.shader_dir = text(options.shader_dir);
+    pt_create_info info = create_info(options.device, options.shader_dir);
     info.submit_milliseconds = options.submit_milliseconds;
     if (options.validation) {
         info.flags = PT_CREATE_VALIDATION;

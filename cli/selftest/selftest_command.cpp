@@ -115,10 +115,7 @@ std::vector<SelftestCheck> run_selftest_checks(const Context &context) {
 
 int run_selftest(const SelftestOptions &options) {
     check_report_file(options.json);
-    auto info = sized<pt_create_info>();
-    info.device = options.device.empty() ? nullptr : options.device.c_str();
-    info.shader_dir = options.shader_dir.empty() ? nullptr : options.shader_dir.c_str();
-    const Context context(info);
+    const Context context(create_info(options.device, options.shader_dir));
     SelftestReport report{};
     context.require(pt_get_context_device(context.get(), &report.device));
     report.checks = options.directions ? check_scenes(context, with_weights(direction_scenes()), "directions")

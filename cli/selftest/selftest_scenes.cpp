@@ -32,11 +32,6 @@ double channel_mean(std::span<const float> radiance, std::size_t channel, int po
     return sum / (static_cast<double>(radiance.size()) / 3.0);
 }
 
-constexpr double unit_roundoff = 0x1p-24; // float32
-
-// 50 operations. Division is the least exact. Vulkan permits 2.5 ulp for it, which are 5 roundoffs.
-constexpr double sample_rounding = 50 * 5 * unit_roundoff;
-
 SceneFile scene_of(std::uint32_t side, std::uint32_t sample_count, const std::string &members) {
     return parse_scene(concat(R"({"film": {"width": )", side, R"(, "height": )", side, R"(}, "render": {"spp": )",
                               sample_count, members, "}"),
