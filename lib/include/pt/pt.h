@@ -440,9 +440,9 @@ typedef struct pt_create_info {
     const pt_vulkan *vulkan;
     const char *shader_dir; /**< a folder of changed GLSL files (pt/shaders.h); NULL or empty: the library's kernels */
     /** Functions that keep compiled kernels, so that later processes start sooner. Either may be NULL. pt_create calls
-     * load_kernels for each device. A call that has built kernels ends with store_kernels, even if it fails. Such calls
-     * are pt_prepare, pt_accumulate, pt_reload_shaders and pt_readback of first hits. On GPUs every pt_readback and
-     * pt_get_error_estimate may build kernels too. */
+     * load_kernels for each device. A call that has built kernels ends with store_kernels, even if it fails. These
+     * calls are pt_prepare, pt_accumulate, pt_reload_shaders and pt_readback of first hits. On GPUs every pt_readback
+     * and pt_get_error_estimate may build kernels too. */
     pt_load_kernels_fn load_kernels;
     pt_store_kernels_fn store_kernels; /**< see load_kernels */
     void *kernels_user;                /**< argument of both functions */

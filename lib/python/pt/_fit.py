@@ -100,7 +100,7 @@ def apex(reaches: Doubles, axes: Doubles, normals: Doubles) -> Doubles:
     """The nearest pinhole that sees balls with these reaches along the pyramid's normals.
 
     A ball with center c and radius r is in view of the pinhole p if dot(n, p) >= dot(n, c) + r for each outward normal n. All balls are
-    in view if dot(n, p) >= s with the reach s. With the horizontal half angle a, the normals are -+cos(a) right
+    in view if dot(n, p) >= s with the reach s. Let a be the horizontal half angle. The normals are -+cos(a) right
     - sin(a) forward. Their sum gives dot(forward, p) <= -(s_left + s_right) / (2 sin a). Their difference gives dot(right, p) = (s_right
     - s_left) / (2 cos a).
 
