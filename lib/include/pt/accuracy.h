@@ -9,19 +9,19 @@
 extern "C" {
 #endif
 
-/** A device's accuracy in one elementary function. Errors are in ulp of the exact value y: 2^(e - 23) for
- * 2^e <= |y| < 2^(e + 1). */
+/** A device's accuracy in one elementary function. Errors are in ulp: 2^(e - 23) for exact values y with 2^e <= |y| <
+ * 2^(e + 1). */
 typedef struct pt_function_accuracy {
     char name[40];      /**< UTF-8, zero-terminated */
-    double worst_error; /**< largest error, >= 0; infinite if the device returned NaN, infinity or nothing */
-    double bound;       /**< largest error of any device that conforms to Vulkan */
+    double worst_error; /**< largest error, >= 0; INFINITY if the device returned NaN, infinity or nothing */
+    double bound;       /**< largest error that Vulkan allows */
     double worst_input; /**< argument of worst_error */
 } pt_function_accuracy;
 
 /** Compares the kernel's elementary functions on this context's device with double precision, for fixed inputs.
  *
- * Lists an element per function; with rows = NULL it evaluates nothing. Changes nothing and needs no scene. The call
- * succeeds even if a worst_error is above its bound.
+ * Lists an element per function; if rows is NULL, no function is evaluated. Needs no scene. The call succeeds even if a
+ * worst_error is above its bound.
  *
  * One thread at a time. */
 PT_API pt_result pt_get_accuracy(pt_context *context, pt_function_accuracy *rows, uint32_t *count);

@@ -1,8 +1,8 @@
 /** @file
  * pt: samples in the background, while the program does something else.
  *
- * pt_start begins a pt_accumulate and returns at once, pt_poll continues it, and pt_cancel ends it early. The pattern
- * of polls does not change the result.
+ * pt_start begins a pt_accumulate and returns at once, pt_poll continues it, and pt_cancel ends it early. Neither the
+ * image's bits nor the number of samples depends on when pt_poll is called.
  *
  *     result = pt_start(context, &info);
  *     while (result == PT_PENDING) {
@@ -12,19 +12,18 @@
  *     if (result >= 0)
  *         result = pt_readback(context, &image);
  *
- * - Devices: The library starts no threads. Between calls each device has at most two submissions
- *   (pt_create_info.submit_milliseconds), and only pt_poll gives it more. To keep devices busy, let pt_poll wait, or
- *   make submissions longer than the time between two polls.
+ * - Devices: The library starts no threads. Between calls each device has at most two submissions, and only pt_poll
+ *   gives it more. To keep devices busy, let pt_poll wait, or make submissions longer than the time between two polls
+ *   (pt_create_info.submit_milliseconds).
  * - Threads: Any thread may poll, one at a time. Any thread may cancel, also while another one polls.
  * - State: Samples are being taken from a pt_start that returns PT_PENDING to the first pt_poll that does not.
  *   Meanwhile other calls on the context return PT_ERROR_INVALID_STATE. Exceptions are pt_cancel,
  *   pt_get_context_device, pt_last_error, pt_get_broken_rule and pt_destroy, which waits for the current submissions.
- *   To change scene or camera earlier, call pt_cancel and then pt_poll until it does not return PT_PENDING. pt_poll
- *   first completes the current sample of all pixels.
+ *   To change scene or camera earlier, call pt_cancel, then pt_poll until it does not return PT_PENDING.
  * - Callbacks: info.progress must be NULL, since pt_poll returns the progress. All other callbacks run within pt_start
- *   and pt_poll.
- * - Failures: Complete samples are kept, as by pt_accumulate. A pt_poll that fails has ended all submissions, perhaps
- *   after a longer wait than asked for.
+ *   and pt_poll, on the calling thread.
+ * - Failures: Complete samples are kept, as by pt_accumulate. A pt_poll that fails first waits for all submissions,
+ *   perhaps longer than asked.
  */
 #ifndef PT_ASYNC_H
 #define PT_ASYNC_H
@@ -37,30 +36,30 @@ extern "C" {
 
 /** Begins to add samples without waiting for them.
  *
- * Builds all kernels for the samples (pt_prepare builds most of them ahead). If pt_next_check returns the image's
- * present number of samples, a target error is checked first.
+ * Builds all kernels for the samples (pt_prepare builds most of them ahead). Checks a target error first if the image
+ * has a number of samples that pt_next_check returns.
  *
  * One thread at a time. PT_PENDING: samples are being taken. PT_TARGET_REACHED: the image already has the target error,
  * and no samples are being taken. Fails as pt_accumulate does. */
 PT_API pt_result pt_start(pt_context *context, const pt_accumulate_info *info);
 
-/** Collects finished work, gives the devices more, and waits for at most this many nanoseconds.
+/** Gives the devices more work, and waits for at most this many nanoseconds; with UINT64_MAX until all samples are
+ * taken.
  *
- * With UINT64_MAX it waits until all samples are taken. It may take longer when it checks a target error, which reads
- * the image. It builds no kernel.
- *
- * fraction may be NULL. Otherwise it receives the finished part of the samples, in [0, 1], which never falls.
+ * The call may take longer when it checks a target error, which reads the image. It builds no kernel. fraction may be
+ * NULL. Otherwise it receives the finished fraction of the samples, in [0, 1], which never decreases.
  *
  * One thread at a time. PT_PENDING: samples are still being taken. PT_OK: all samples are taken. PT_TARGET_REACHED:
  * fewer were enough. PT_CANCELLED: pt_cancel was called; fewer samples are taken, all of them complete.
- * PT_ERROR_INVALID_STATE: no samples are being taken. Every result except PT_PENDING ends what pt_start began, unless
- * the call was refused (in a callback, or while another thread was in a call). */
+ * PT_ERROR_INVALID_STATE: no samples are being taken. After any result except PT_PENDING no samples are being taken,
+ * unless the call was refused because it was made in a callback or while another thread was in a call. */
 PT_API pt_result pt_poll(pt_context *context, uint64_t nanoseconds, double *fraction);
 
 /** Asks for no more samples, and returns at once.
  *
- * pt_poll then ends what pt_start began. A running pt_accumulate ends as if pt_progress_fn had asked to stop: with
- * PT_CANCELLED, or with PT_OK if no sample was left to begin.
+ * After pt_start, call pt_poll until it does not return PT_PENDING: it completes the current sample of all pixels. A
+ * running pt_accumulate ends as if pt_progress_fn had asked to stop, with PT_CANCELLED, or with PT_OK if all samples
+ * had begun.
  *
  * Any thread, at any time before pt_destroy, also in callbacks and while another thread is in a call on the context.
  * PT_ERROR_INVALID_STATE: no samples are being taken. */

@@ -1,10 +1,9 @@
-/** @file
- * pt: a denoised picture that states its error, by Open Image Denoise.
+/** @file pt: denoising by Open Image Denoise, with the error of the denoised picture.
  *
- * Two images of one scene have different seeds and equally many samples. pt_denoise filters each and moves their mean
- * towards the filtered images, as far as both images support (shaders/README.md, section 11). No value leaves the range
- * of both images within the 3x3 pixels about it. The mean of a channel moves by at most its standard error.
- * Values stay raw where the expected error of 32x32 pixels would grow.
+ * pt_denoise filters two images of one scene, which have different seeds and equally many samples. The result lies
+ * between their mean and the filtered images (shaders/README.md, section 11). No value leaves the range of both images
+ * within the 3 x 3 pixels about it. The mean of a channel moves by at most its standard error. Regions of 32 x 32
+ * pixels stay unfiltered if filtering would raise their expected error.
  */
 #ifndef PT_DENOISE_H
 #define PT_DENOISE_H
@@ -21,31 +20,30 @@ typedef struct pt_denoise_info {
     uint32_t struct_size; /**< sizeof(pt_denoise_info) */
     uint32_t width;       /**< pixels of all images, >= 1 */
     uint32_t height;      /**< pixels, >= 1; width * height <= 2^32 - 1 */
-    /** 0: the CPU. Otherwise Open Image Denoise or its environment variable OIDN_DEFAULT_DEVICE ("cuda") chooses a
-     * device. */
+    /** 0: the CPU. Otherwise the default device of Open Image Denoise, which its environment variable
+     * OIDN_DEFAULT_DEVICE can set. */
     uint32_t any_device;
     const float *first; /**< radiance: PT_QUANTITY_RADIANCE; finite */
-    /** The radiance with another pt_render.seed. All else must be equal, also each pixel's number of samples. With
-     * parts of one sequence the stated error would be too small. */
+    /** The radiance with another pt_render.seed. All else must be equal, also each pixel's number of samples. Parts of
+     * one sample sequence give a too small error. */
     const float *second;
     const float *albedo; /**< PT_QUANTITY_ALBEDO */
     const float *normal; /**< PT_QUANTITY_NORMAL */
     float *denoised;     /**< receives the picture; must differ from the other images */
-    /** File of Open Image Denoise 2. NULL: the system's libOpenImageDenoise.so.2. It stays loaded from the first
-     * call. */
+    /** File of Open Image Denoise 2. NULL: the system's libOpenImageDenoise.so.2. The file of the first call stays
+     * loaded. */
     const char *library;
 } pt_denoise_info;
 
-/** Denoises an image, and estimates the error of the denoised picture.
+/** Denoises an image, and estimates the error of the denoised picture. Open Image Denoise starts threads; on the CPU
+ * their number does not change the result.
  *
- * On the CPU the result does not depend on the number of threads, which Open Image Denoise starts.
+ * The bounds lie 1.96 standard errors below and above the estimate of the squared error, rmse and relative_rmse 1.28
+ * above it. If the error comes from fewer than 8 tiles of 8 x 8 pixels, it is uncertain (PT_UNCERTAIN_RMSE,
+ * PT_UNCERTAIN_RELATIVE_RMSE), and the bounds are twice as wide. Light that no sample has found is not included.
  *
- * The estimate of the squared error has a standard error, from the spread over tiles of 8 x 8 pixels. rmse and
- * relative_rmse lie 1.28 standard errors above the estimate, the bounds 1.96 below and above it. If the error comes
- * from fewer than 8 tiles, it is uncertain (PT_UNCERTAIN_RMSE, PT_UNCERTAIN_RELATIVE_RMSE), and the bounds
- * are twice as wide. Light that no sample has found is not included.
- *
- * Any thread. PT_ERROR_UNSUPPORTED: the library is missing, has another version, or does not run on this processor. */
+ * Any thread. PT_ERROR_UNSUPPORTED: Open Image Denoise is missing, has another version, or does not run on this
+ * processor. */
 PT_API pt_result pt_denoise(const pt_denoise_info *info, pt_error_estimate *error);
 
 #ifdef __cplusplus

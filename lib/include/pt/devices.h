@@ -3,13 +3,13 @@
  *
  * pt_create_info.device chooses a device, or several that share the samples. It is UTF-8, zero-terminated.
  * - NULL: the best device, in the order discrete, integrated, virtual, CPU
- * - an index into pt_get_devices in decimal, or a UUID as 32 hexadecimal digits, with dashes or without
+ * - a decimal index into pt_get_devices, or a UUID of 32 hexadecimal digits, with dashes or without
  * - "gpu" or "cpu"
  * - a part of a name, ignoring case
  * - "all": all devices of the best kind
  * - indices or UUIDs separated by commas, each device once
  *
- * Several devices give the bits of one if they are of one kind and driver. */
+ * Several devices of one model and driver give the same bits as one of them. */
 #ifndef PT_DEVICES_H
 #define PT_DEVICES_H
 
@@ -25,7 +25,7 @@ enum {
     PT_DEVICE_INTEGRATED_GPU = 1, /**< shares the memory of the machine */
     PT_DEVICE_DISCRETE_GPU = 2,   /**< has its own memory */
     PT_DEVICE_VIRTUAL_GPU = 3,    /**< the GPU of a virtual machine */
-    PT_DEVICE_CPU = 4             /**< a driver that runs kernels on the CPU */
+    PT_DEVICE_CPU = 4             /**< a driver that runs on the CPU */
 };
 
 /** A Vulkan device. */
@@ -33,7 +33,7 @@ typedef struct pt_device_info {
     uint32_t kind;         /**< PT_DEVICE_* */
     uint32_t suitable;     /**< 1: pt_create can use it; 0: reason says why not */
     uint64_t memory_bytes; /**< size of the largest memory heap that kernels can reach quickly */
-    uint8_t uuid[16];      /**< tells two equal devices apart; stable over reboots */
+    uint8_t uuid[16];      /**< differs between equal devices; stable over reboots */
     char name[256];        /**< UTF-8, zero-terminated, like driver and reason */
     char driver[256];      /**< driver name and version */
     char reason[256];      /**< empty if suitable */

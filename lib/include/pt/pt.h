@@ -13,23 +13,22 @@
  *   fields, except pt_sphere_array. Reserved fields must be 0.
  * - Lists: A call that lists elements writes at most *count of them to an array. *count then receives the number
  *   written or, if the array is NULL, the number of elements.
- * - Ownership: When a call returns, it no longer needs its arguments. Exceptions are callbacks, their user pointers and
- *   arguments whose comments state it. A pointer may be NULL only if its comment says so.
+ * - Ownership: When a call returns, it no longer needs its arguments, except callbacks, their user pointers and
+ *   arguments whose comments say so. A pointer may be NULL only if its comment says so.
  * - Results: A negative result is an error. Every error has a message, see pt_last_error. A failed call changes
- *   nothing, with two exceptions. A lost device stays lost: destroy the context and create another. pt_accumulate may
- *   have added some of its samples.
+ *   nothing, with two exceptions: pt_accumulate may have added some of its samples, and after PT_ERROR_DEVICE_LOST the
+ *   context can only be destroyed.
  * - Errors: Any function can return PT_ERROR_OUT_OF_HOST_MEMORY and PT_ERROR_INTERNAL. An argument that breaks a rule
  *   of the headers gives PT_ERROR_INVALID_ARGUMENT. A driver's failure gives PT_ERROR_SHADER,
- *   PT_ERROR_OUT_OF_DEVICE_MEMORY or PT_ERROR_DEVICE_LOST. Comments of functions list only other errors and other
- *   causes.
+ *   PT_ERROR_OUT_OF_DEVICE_MEMORY or PT_ERROR_DEVICE_LOST. Comments of functions list only further errors and causes.
  * - Threads: Different contexts are independent. Only one thread at a time may use a context. While one thread is in a
  *   call, calls of other threads on the same context return PT_ERROR_INVALID_STATE, except pt_cancel (pt/async.h). The
  *   library starts no threads (drivers do), prints nothing and has no globals. It reads no files outside
  *   pt_create_info.shader_dir. On Mesa's lavapipe, calls need less than 256 KiB of stack.
  * - Processes: A forked child may create its own contexts. Its calls on the parent's contexts return
  *   PT_ERROR_INVALID_STATE, and its pt_destroy does not touch them, because the child lacks the driver's threads.
- * - Callbacks: A callback runs inside the call, on the calling thread. It must not throw. Its own calls on the same
- *   context return PT_ERROR_INVALID_STATE, except pt_cancel.
+ * - Callbacks: A callback runs inside the call, on the calling thread, and must not throw. The calls that it makes on
+ *   the same context return PT_ERROR_INVALID_STATE, except pt_cancel.
  * - Floating point: Calls and their callbacks round to nearest. A call restores the caller's rounding mode when it
  *   returns. Floating-point exceptions must not be trapped.
  */
@@ -55,20 +54,20 @@ typedef int32_t pt_result;
 /** Values of pt_result. */
 enum {
     PT_OK = 0,                          /**< done */
-    PT_CANCELLED = 1,                   /**< the caller stopped the call; complete samples or the old scene are kept */
-    PT_TARGET_REACHED = 2,              /**< the target error was reached before all samples were taken */
-    PT_PENDING = 3,                     /**< samples are being taken, see pt/async.h */
+    PT_CANCELLED = 1,                   /**< the caller stopped the call */
+    PT_TARGET_REACHED = 2,              /**< the target error is reached; not all samples were taken */
+    PT_PENDING = 3,                     /**< samples are still being taken (pt/async.h) */
     PT_ERROR_INVALID_ARGUMENT = -1,     /**< a field, size or pointer breaks a rule of this header */
     PT_ERROR_INVALID_SCENE = -2,        /**< a scene breaks a rule; the message names field, value and rule */
     PT_ERROR_INVALID_STATE = -3,        /**< another call must come first or must end first */
-    PT_ERROR_UNSUPPORTED = -4,          /**< valid, but this device, driver or library cannot do it */
+    PT_ERROR_UNSUPPORTED = -4,          /**< this device, driver or library cannot do it */
     PT_ERROR_NO_DEVICE = -5,            /**< no Vulkan driver or no suitable device; the message has the reasons */
     PT_ERROR_OUT_OF_HOST_MEMORY = -6,   /**< the machine has too little free memory */
-    PT_ERROR_OUT_OF_DEVICE_MEMORY = -7, /**< the device has too little free memory, for instance for this image */
-    PT_ERROR_DEVICE_LOST = -8,          /**< the device or its driver gave up; the context can only be destroyed */
+    PT_ERROR_OUT_OF_DEVICE_MEMORY = -7, /**< the device has too little free memory */
+    PT_ERROR_DEVICE_LOST = -8,          /**< the device stopped working; the context can only be destroyed */
     PT_ERROR_SHADER = -9,               /**< the driver refused to build the kernel, or its GLSL does not compile */
     PT_ERROR_INTERNAL = -10,            /**< a bug in this library or in the driver */
-    PT_ERROR_INCOMPATIBLE = -11,        /**< bytes that are no film of this picture (pt/film.h) */
+    PT_ERROR_INCOMPATIBLE = -11,        /**< the bytes are not a film of this picture (pt/film.h) */
     PT_ERROR_FILE = -12                 /**< a file cannot be read (pt/scene_file.h) */
 };
 
@@ -78,9 +77,8 @@ typedef struct pt_context pt_context;
 /** The caller's own Vulkan; defined in pt/vulkan.h. */
 typedef struct pt_vulkan pt_vulkan;
 
-/** Called during a long call. fraction is the finished part of the call, in [0, 1], and never falls.
- *
- * Return 0 to go on. Any other value asks the call to stop and return PT_CANCELLED. */
+/** Reports the finished fraction of a long call, in [0, 1], which never decreases. Return 0 to go on. Any other value
+ * asks the call to stop and return PT_CANCELLED. */
 typedef int32_t (*pt_progress_fn)(void *user, double fraction);
 
 /* ---- Scene ------------------------------------------------------------------------------------------------------ */
@@ -91,10 +89,10 @@ typedef int32_t (*pt_progress_fn)(void *user, double fraction);
  *
  *     f(wi, wo) = diffuse / pi + specular * (n + 2) / (2 pi) * max(0, dot(wo, reflect(wi)))^n,   n = glossiness.
  *
- * With n = 0, the specular lobe is constant on the half space about the mirror direction. Color components lie in
- * [0, 1e18]. diffuse + specular may exceed 1; such a surface gains energy. */
+ * For n = 0, 0^0 counts as 0. Color components lie in [0, 1e18]. If diffuse + specular exceeds 1, the surface may
+ * reflect more light than it receives. */
 typedef struct pt_material {
-    float diffuse[3];  /**< fraction of the light that is reflected diffusely */
+    float diffuse[3];  /**< fraction of light reflected diffusely */
     float specular[3]; /**< weight of the lobe about the mirror direction */
     float emission[3]; /**< radiance, the same in every direction and on both sides */
     float glossiness;  /**< n in [0, 1e9] */
@@ -103,9 +101,9 @@ typedef struct pt_material {
 
 /** Bits of pt_material.flags. */
 enum {
-    /** camera rays pass through surfaces of the material. All other rays hit them. So a lamp or a room's wall can be
-     * invisible. Hidden spheres are outside the tree (PT_FEATURE_TREE) and are tested one by one, so there should be
-     * few. If surfaces are merged (pt_sphere), the first one decides. */
+    /** camera rays pass through surfaces of this material. All other rays hit them. Hidden spheres should be few,
+     * because they are outside the tree (PT_FEATURE_TREE) and every ray tests each of them. Merged surfaces (pt_sphere)
+     * have the flag of the first one. */
     PT_MATERIAL_HIDDEN_FROM_CAMERA = 1
 };
 
@@ -117,9 +115,9 @@ enum {
  * - their centers differ by less than 2^-18 of the radius plus 2^-21 of the distance, and by less than a quarter of the
  *   radius.
  *
- * Spheres in a tree (PT_FEATURE_TREE) are merged only if the tree stores equal numbers for them. The camera sees the
- * largest of concentric spheres. It may see the inside of a sphere's surface that is nearer than 2^-22 of the radius
- * plus 2^-28 of the extent of all spheres in the tree. */
+ * Spheres in a tree (PT_FEATURE_TREE) are merged only if the tree stores equal numbers for them. If the camera is
+ * outside such a sphere but nearer to its surface than 2^-22 of the radius plus 2^-28 of the extent of all spheres in
+ * the tree, it may see the inside of the sphere. */
 typedef struct pt_sphere {
     double center[3]; /**< at time 0 */
     double radius;    /**< > 0 */
@@ -160,22 +158,21 @@ typedef struct pt_sphere_array {
     pt_column motion;     /**< x, y, z; FLOAT32 or FLOAT64; default (0, 0, 0) */
     pt_column material;   /**< index into pt_scene.materials; UINT32; default 0 */
     /** R, G, B in [0, 1], multiplied by the material's diffuse. FLOAT32 or FLOAT64 for linear values, or SRGB8; default
-     * (1, 1, 1). A tree (PT_FEATURE_TREE) stores them to a thousandth. */
+     * (1, 1, 1). A tree (PT_FEATURE_TREE) rounds them by up to 0.001. */
     pt_column color;
-    /** x, y, z of a second center, which makes each sphere a capsule: all points no farther than the radius from the
+    /** x, y, z of a second center. Each sphere then becomes a capsule: all points no farther than the radius from the
      * segment between center and end. FLOAT32 or FLOAT64; default none. A capsule that emits or moves gives
      * PT_ERROR_INVALID_SCENE. If length + radius exceeds the distance from the camera, the surface is off by up to
      * 2^-21 of length + radius. */
     pt_column end;
-    /** Probability in [0, 1] that a ray hits the sphere. Otherwise the ray passes through it. Every camera, path and
-     * shadow ray decides at random for each sphere. On average the product of the spheres' 1 - opacity of the light
-     * passes. FLOAT32 or FLOAT64, rounded to a multiple of 1/255; default 1.
+    /** Probability in [0, 1] that a ray hits the sphere. Otherwise the ray passes through it. Every ray, also a shadow
+     * ray, decides at random for each sphere. So the mean fraction of light that passes several spheres is the product
+     * of their 1 - opacity. FLOAT32 or FLOAT64, rounded to a multiple of 1/255; default 1.
      *
      * All samplers except PT_SAMPLER_RANDOM spread the decisions for one sphere evenly over 16 samples.
      *
-     * A sphere with an opacity below 1 is always in a tree. Centers are then stored to 2^-30 of the extent of all
-     * spheres in it, radii to a relative 2^-16. If the material emits or is hidden, the scene is refused
-     * (PT_ERROR_INVALID_SCENE). */
+     * A sphere with an opacity below 1 is always in a tree (PT_FEATURE_TREE), and its radius is rounded by up to 2^-16
+     * of its value. If its material emits or is hidden, pt_set_scene returns PT_ERROR_INVALID_SCENE. */
     pt_column opacity;
 } pt_sphere_array;
 
@@ -187,31 +184,29 @@ typedef struct pt_plane {
     uint32_t reserved; /**< 0 */
 } pt_plane;
 
-/** A scene. pt_set_scene reads the caller's arrays and keeps none of them. The index of a sphere counts through spheres
- * first, then through sphere_arrays. */
+/** A scene. Sphere indices begin with spheres and continue through sphere_arrays. */
 typedef struct pt_scene {
     uint32_t struct_size;                 /**< sizeof(pt_scene) */
     uint32_t material_count;              /**< elements of materials */
-    uint32_t sphere_count;                /**< elements of spheres; with all sphere_arrays at most 2^26 */
-    uint32_t plane_count;                 /**< elements of planes; with all spheres fewer than 2^30 */
-    const pt_material *materials;         /**< NULL only if the count is 0, like all arrays here */
+    uint32_t sphere_count;                /**< elements of spheres; at most 2^26 with those of all sphere_arrays */
+    uint32_t plane_count;                 /**< elements of planes; fewer than 2^30 with all spheres */
+    const pt_material *materials;         /**< each array may be NULL only if its count is 0 */
     const pt_sphere *spheres;             /**< in any order */
     const pt_plane *planes;               /**< in any order */
-    const pt_sphere_array *sphere_arrays; /**< more spheres, for instance one element per species */
+    const pt_sphere_array *sphere_arrays; /**< further spheres */
     uint32_t sphere_array_count;          /**< elements of sphere_arrays, at most 65536 */
     uint32_t reserved;                    /**< 0 */
-    /** NULL, or a function that pt_set_scene calls: every few milliseconds if there are many spheres, and always with 1
-     * before the new scene replaces the old one. If it asks to stop, pt_set_scene returns PT_CANCELLED and changes
-     * nothing. */
+    /** NULL, or a function that pt_set_scene calls every few milliseconds, and at the end with 1. If it asks to stop,
+     * pt_set_scene returns PT_CANCELLED and changes nothing. */
     pt_progress_fn progress;
     void *progress_user; /**< argument of progress */
 } pt_scene;
 
 /** Values of pt_camera.projection. */
 enum {
-    PT_PROJECTION_PERSPECTIVE = 0, /**< all rays start at position (a pinhole), or on a lens (pt_camera.aperture) */
-    /** parallel rays along the viewing direction. They start on the plane through position that is perpendicular to it.
-     * Surfaces behind this plane are invisible, and a ball that it cuts shows its inside. */
+    PT_PROJECTION_PERSPECTIVE = 0, /**< rays start at position (a pinhole) or on a lens (pt_camera.aperture) */
+    /** parallel rays along the viewing direction. They start on the plane through position perpendicular to this
+     * direction. Surfaces behind the plane are invisible. If the plane cuts a sphere, the camera sees its inside. */
     PT_PROJECTION_ORTHOGRAPHIC = 1
 };
 
@@ -219,46 +214,42 @@ enum {
 typedef struct pt_camera {
     uint32_t struct_size; /**< sizeof(pt_camera) */
     uint32_t projection;  /**< PT_PROJECTION_* */
-    double position[3];   /**< the pinhole, or where the image's middle ray starts; default the origin */
-    double target[3];     /**< seen in the middle of the image; must differ from position */
+    double position[3];   /**< the pinhole, or the start of the image's middle ray; default the origin */
+    double target[3];     /**< the point in the middle of the image; must differ from position */
     double up[3];         /**< not parallel to the viewing direction; default (0, 1, 0) */
     double vertical_fov;  /**< perspective: full vertical angle in [1e-8, pi); default pi / 4. Orthographic: 0 */
-    double shutter_open;  /**< time of pt_sphere.motion at which the shutter opens; 0 <= open <= close <= 1 */
-    double shutter_close; /**< light is gathered evenly from open to close; both 0: the instant 0 */
-    /** Orthographic: full height of the view; it has no default. Height and width (height times the image's
-     * width / height) lie in [1e-18, 1e18]. If the width does not, pt_accumulate returns PT_ERROR_UNSUPPORTED.
-     * Perspective: 0. */
+    double shutter_open;  /**< time at which the shutter opens; 0 <= shutter_open <= shutter_close <= 1 */
+    double shutter_close; /**< time at which the shutter closes */
+    /** Orthographic: full height of the view, in [1e-18, 1e18]; no default. If the view's width is outside this range,
+     * pt_accumulate returns PT_ERROR_UNSUPPORTED. Perspective: 0. */
     double vertical_extent;
     /** Perspective: diameter of a thin lens about position, perpendicular to the viewing direction, at most 2 * focus;
      * 0: a pinhole. At depth z, a pixel's rays spread over a disc of the diameter aperture * |z / focus - 1|.
      * Orthographic: 0. */
     double aperture;
-    /** Perspective with an aperture: depth of the plane in focus, along the viewing direction; default the distance of
-     * target. Ignored without an aperture. Orthographic: 0. */
+    /** Perspective with an aperture: depth of the plane in focus along the viewing direction; default the distance of
+     * target. Orthographic: 0. */
     double focus;
 } pt_camera;
 
 /* ---- Rendering -------------------------------------------------------------------------------------------------- */
 
-/** Values of pt_render.estimator: how paths find light.
- *
- * All estimators converge to the same image, with different noise and time. Lamps are emitting spheres that can be
- * sampled. Random directions alone find emitting planes and a sky (an emitting sphere around the camera). */
+/** Values of pt_render.estimator: how paths find light. All estimators converge to the same image. A lamp is an
+ * emitting sphere, except one around the camera. Other emitting surfaces are found only by random directions. */
 enum {
     PT_ESTIMATOR_BEST = 0,    /**< the best one in this version: mis */
     PT_ESTIMATOR_UNIFORM = 1, /**< directions uniform on the hemisphere; lamps are found by chance */
-    PT_ESTIMATOR_COSINE = 2,  /**< directions in proportion to the cosine to the normal; lamps are found by chance */
-    PT_ESTIMATOR_BSDF = 3,    /**< directions by the material, cosine and specular lobe; lamps are found by chance */
-    PT_ESTIMATOR_LIGHT = 4,   /**< lamps sampled by solid angle; directions as in bsdf for all other light */
-    PT_ESTIMATOR_MIS = 5      /**< lamps sampled by solid angle and directions as in bsdf, combined by weights */
+    PT_ESTIMATOR_COSINE = 2,  /**< density proportional to the cosine to the normal; lamps are found by chance */
+    PT_ESTIMATOR_BSDF = 3,    /**< density by cosine and specular lobe; lamps are found by chance */
+    PT_ESTIMATOR_LIGHT = 4,   /**< lamps sampled by solid angle; all other light as bsdf */
+    PT_ESTIMATOR_MIS = 5      /**< light and bsdf combined by weights */
 };
 
-/** Values of pt_render.sampler: the source of a sample's numbers. All samplers converge to the same image, at different
- * rates. */
+/** Values of pt_render.sampler: the source of a sample's numbers. All samplers converge to the same image. */
 enum {
     PT_SAMPLER_BEST = 0,      /**< the best one in this version: sobol */
     PT_SAMPLER_RANDOM = 1,    /**< independent random numbers */
-    PT_SAMPLER_HALTON = 2,    /**< radical inverses in prime bases, the same points in every pixel */
+    PT_SAMPLER_HALTON = 2,    /**< Halton points, the same in every pixel */
     PT_SAMPLER_HALTON_CP = 3, /**< Halton points, rotated at random per pixel and dimension (Cranley, Patterson) */
     PT_SAMPLER_SOBOL = 4      /**< Sobol points, Owen-scrambled per pixel and dimension */
 };
@@ -268,22 +259,22 @@ enum {
 
 /** Bits of pt_render.flags. */
 enum {
-    /** samples whose camera rays hit a surface are counted, for PT_QUANTITY_COVERAGE. It takes 4 more bytes a pixel. No
-     * bit of the radiance changes. */
+    /** samples whose camera rays hit a surface are counted, for PT_QUANTITY_COVERAGE. This takes 4 more bytes a pixel
+     * and changes no bit of the radiance. */
     PT_RENDER_COVERAGE = 1
 };
 
 /** The size of the image and the method of rendering.
  *
- * An image too large for a device can be rendered in pieces of rows with the same bits. Each piece is read back as an
- * image. */
+ * An image too large for a device can be rendered in pieces of some rows each, with the same bits. A piece is read back
+ * as an image of its own. */
 typedef struct pt_render {
     uint32_t struct_size;     /**< sizeof(pt_render) */
     uint32_t width;           /**< pixels, >= 1; width * height <= 2^32 - 1 */
     uint32_t height;          /**< pixels, >= 1 */
-    uint32_t max_path_length; /**< most surface vertices of a path, [1, 1024]; 1: emission only */
+    uint32_t max_path_length; /**< most surface hits of a path, in [1, 1024]; 1: emission only */
     uint64_t seed;            /**< equal inputs, devices, drivers and seeds give equal bits */
-    uint32_t first_sample;    /**< index of the first sample; parts of one sequence can be taken separately */
+    uint32_t first_sample;    /**< index of the first sample */
     uint32_t estimator;       /**< PT_ESTIMATOR_* */
     uint32_t sampler;         /**< PT_SAMPLER_* */
     uint32_t flags;           /**< PT_RENDER_* */
@@ -291,45 +282,44 @@ typedef struct pt_render {
     uint32_t row_count;       /**< rows that are rendered; 0: all from first_row on */
 } pt_render;
 
-/** Values of pt_accumulate_info.sampling: which pixels get the samples. All converge to the same image. */
+/** Values of pt_accumulate_info.sampling: the numbers of samples of pixels. */
 enum {
     PT_SAMPLING_BEST = 0,    /**< adaptive with a target error, otherwise uniform */
     PT_SAMPLING_UNIFORM = 1, /**< the same number in all pixels */
-    /** more samples where they reduce the error most; needs a target error (shaders/README.md, section 11). Tiles of
-     * 8 x 8 pixels get different numbers, each at least half of the mean number. */
+    /** more samples where they reduce the error most (shaders/README.md, section 11). Needs a target error. Tiles of 8
+     * x 8 pixels get different numbers, each at least half of the mean number. */
     PT_SAMPLING_ADAPTIVE = 2
 };
 
 /** How many samples pt_accumulate is to add. */
 typedef struct pt_accumulate_info {
     uint32_t struct_size; /**< sizeof(pt_accumulate_info) */
-    /** Samples to add to every pixel, >= 1; their indices stay below 2^32. If target_error is set, the pixels that have
-     * most samples get at most this number. 0 then adds samples only to the other pixels, which a stopped call may have
-     * left behind. */
+    /** Samples to add to every pixel, >= 1; their indices stay below 2^32. If target_error is set, this limits what the
+     * pixels with most samples get. It may then be 0, to add samples only to the pixels that a stopped call left with
+     * fewer. */
     uint32_t sample_count;
     /** NULL, or a function that pt_accumulate calls after every submission to a device. NULL for pt_start.
      *
-     * If it asks to stop, the call still ends the current submissions, at most two per device, and those that complete
-     * a sample of all pixels. The function cannot interrupt a driver that builds a kernel (pt_prepare). */
+     * If it asks to stop, the call waits for the current submissions, at most two per device, and completes the current
+     * sample of all pixels. The function cannot interrupt a driver that builds a kernel (pt_prepare). */
     pt_progress_fn progress;
     void *progress_user; /**< argument of progress */
-    /** 0: none. Otherwise the call returns PT_TARGET_REACHED once pt_error_estimate.relative_rmse_high is at most this.
-     * Pixels with lamps smaller than a pixel must also have enough samples to hit them. The call returns PT_OK if
-     * sample_count runs out first, or if no pixel that it may sample is below sample_limit. Finite, >= 0.
+    /** 0: none. Otherwise the call returns PT_TARGET_REACHED once pt_error_estimate.relative_rmse_high is at most this
+     * value, and pixels with lamps smaller than a pixel have enough samples to hit them. The call returns PT_OK if
+     * sample_count is exhausted first, or if all pixels have sample_limit samples. Finite, >= 0.
      *
-     * The error is checked when all pixels have a number of samples that pt_next_check returns. If tiles differ
-     * (PT_SAMPLING_ADAPTIVE), it is checked after each round of sampling. So with the same sample_limit, the final
-     * samples of each pixel do not depend on the split over calls, devices and saved films. */
+     * The error is checked at the numbers of samples that pt_next_check returns. With PT_SAMPLING_ADAPTIVE it is also
+     * checked after each round of sampling. So with the same sample_limit, the final samples of each pixel do not
+     * depend on the split over calls, devices and saved films. */
     double target_error;
     uint32_t sampling; /**< PT_SAMPLING_* */
     /** The most samples of a pixel after this call and later ones, if target_error is set; otherwise 0. When the pixels
-     * that need more samples reach this number, the other pixels take more, since the target is for the whole image. If
-     * sample_limit is smaller than the number that this call may reach, that number is the limit. */
+     * that need more samples reach this number, the other pixels take more, since the target is for the whole image. A
+     * sample_limit below the number that sample_count allows is raised to that number. */
     uint32_t sample_limit;
-    /** NULL: all pixels get the same number, or as the target error decides. Otherwise element i is the number of
-     * samples that tile i takes, 0 to sample_count. A tile takes the first samples that it lacks, from
-     * pt_render.first_sample on. target_error must be 0. Tiles are squares of 8 x 8 pixels, row by row from the top
-     * left of the rendered rows, smaller at the right and lower edges. */
+    /** NULL, or the number of samples that each tile takes, 0 to sample_count. target_error must then be 0. A tile
+     * takes the first samples that it lacks, from pt_render.first_sample on. Tiles are squares of 8 x 8 pixels, row by
+     * row from the top left of the rendered rows, smaller at the right and lower edges. */
     const uint32_t *tile_samples;
     uint32_t tile_count; /**< number of tiles, or 0 if tile_samples is NULL */
     uint32_t reserved2;  /**< 0 */
@@ -338,53 +328,51 @@ typedef struct pt_accumulate_info {
 /** Values of pt_image.quantity. */
 enum {
     PT_QUANTITY_RADIANCE = 0, /**< mean of the samples */
-    /** standard error of the mean. It comes from the difference between the means of two parts of the samples, and is
-     * half of the difference if the parts are equal. The first part has the largest power of two below the number of
-     * samples. Up to 8 samples the value is INFINITY. It has one degree of freedom, so a quarter of all values are
-     * below a third of the true one. */
+    /** standard error of the mean, from the difference between the means of two parts of the samples. The number of
+     * samples in the first part is the largest power of two below the whole number. Up to 8 samples the value is
+     * INFINITY. The estimate has one degree of freedom, so a quarter of all values are below a third of the true
+     * error. */
     PT_QUANTITY_STANDARD_ERROR = 1,
-    PT_QUANTITY_SAMPLE_COUNT = 2, /**< number of the pixel's samples, rounded to float32, the same in all channels */
-    /* The next four describe the first hit of camera rays in the present scene. They need no samples: a separate kernel
-     * computes them at every read. They treat a lens as a pinhole, so nothing is out of focus. */
+    PT_QUANTITY_SAMPLE_COUNT = 2, /**< number of the pixel's samples, the same in all channels */
+    /* The next four describe the first hits of camera rays in the present scene. They need no samples, and treat a lens
+     * as a pinhole. */
     /** depth along the viewing direction: dot(x - camera.position, unit viewing direction), the same in all channels. x
-     * is the first hit of the ray through the pixel's center, halfway between shutter_open and shutter_close. For
-     * parallel rays, the distance from their start. INFINITY if the ray hits nothing. */
+     * is the first hit of the ray through the pixel's center, halfway between shutter_open and shutter_close. INFINITY
+     * if the ray hits nothing. */
     PT_QUANTITY_DEPTH = 3,
-    /** unit normal in world coordinates, on the side of the camera: the mean over 16 rays spread evenly over pixel and
-     * shutter time. A ray that hits nothing counts as 0. */
+    /** unit normal in world coordinates, towards the camera: the mean over 16 rays spread evenly over pixel and shutter
+     * time. A ray that hits nothing counts as 0. */
     PT_QUANTITY_NORMAL = 4,
     /** diffuse + specular, each component at most 1: the mean over the same 16 rays. A ray that hits nothing counts as
      * 0. */
     PT_QUANTITY_ALBEDO = 5,
-    /** index of the surface of PT_QUANTITY_DEPTH: spheres as numbered in pt_scene, then planes. Merged surfaces have
-     * the index of the first one (pt_sphere). PT_NO_OBJECT if the ray hits nothing. The format must be
-     * PT_FORMAT_R32UI. */
+    /** index of the surface that PT_QUANTITY_DEPTH hits: spheres as in pt_scene, then planes. Merged surfaces have the
+     * index of the first one (pt_sphere). PT_NO_OBJECT if the ray hits nothing. The format must be PT_FORMAT_R32UI. */
     PT_QUANTITY_OBJECT = 6,
-    /** fraction of the pixel's samples whose camera rays hit a surface, the same in all channels. It is the alpha of
-     * the mean radiance, which is already multiplied by it. The samples must be taken with PT_RENDER_COVERAGE. */
+    /** fraction of the pixel's samples whose camera rays hit a surface, the same in all channels. Use it as alpha; the
+     * mean radiance is already multiplied by it. Needs PT_RENDER_COVERAGE. */
     PT_QUANTITY_COVERAGE = 7
 };
 
 /** The value of PT_QUANTITY_OBJECT where a ray hits nothing. */
 #define PT_NO_OBJECT 0xffffffffu
 
-/** Values of pt_image.format: what a pixel is. Components follow each other in the machine's byte order. A is 1. */
+/** Values of pt_image.format. Components are in the machine's byte order. A is 1. */
 enum {
     PT_FORMAT_RGB32F = 0,  /**< R, G, B as float32: 12 bytes */
     PT_FORMAT_RGBA32F = 1, /**< R, G, B, A as float32: 16 bytes */
-    /** R, G, B, A as float16: 8 bytes. The float32 numbers are rounded to nearest, ties to even. Numbers from 65520 on
-     * become infinity. */
+    /** R, G, B, A as float16: 8 bytes. Rounded to nearest, ties to even. Numbers from 65520 on become infinity. */
     PT_FORMAT_RGBA16F = 2,
     PT_FORMAT_R32UI = 3 /**< one uint32_t: 4 bytes. For PT_QUANTITY_OBJECT only */
 };
 
-/** The caller's memory for an image or a rectangle of it. A rectangle has the same values as in the whole image. */
+/** The caller's memory for an image or a rectangle of it. */
 typedef struct pt_image {
     uint32_t struct_size; /**< sizeof(pt_image) */
     uint32_t quantity;    /**< PT_QUANTITY_* */
-    void *data;           /**< receives pixels row by row from the top; aligned to a component, 4 or 2 bytes */
+    void *data;           /**< receives pixels row by row from the top; aligned to the size of a component */
     uint64_t size_bytes;  /**< at least (height - 1) * row_bytes + width * bytes of a pixel */
-    uint64_t row_bytes;   /**< distance between rows, whole components; default and least: width * bytes of a pixel */
+    uint64_t row_bytes;   /**< distance between rows, whole components; default and minimum: width * bytes of a pixel */
     uint32_t x;           /**< first column that is read */
     uint32_t y;           /**< first row, counted from pt_render.first_row */
     uint32_t width;       /**< columns, >= 1 and within the image; x, y, width and height all 0: the whole image */
@@ -399,76 +387,69 @@ typedef struct pt_image {
 enum {
     PT_LOG_ERROR = 1,   /**< something is wrong */
     PT_LOG_WARNING = 2, /**< something may be wrong */
-    PT_LOG_INFO = 3     /**< devices, the kernels that drivers build, and how long that takes */
+    PT_LOG_INFO = 3     /**< devices, built kernels and their build times */
 };
 
 /** Receives one UTF-8 line without its line break. line is valid during the call. level is a PT_LOG_*. */
 typedef void (*pt_log_fn)(void *user, int32_t level, const char *line);
 
-/** Reads bytes that pt_store_kernels_fn has stored under a key, perhaps in another process.
- *
- * Returns the number of bytes, 0 if there are none. Writes them to data if size_bytes suffices. The first call has NULL
- * and 0. The library ignores bytes that are damaged or come from another driver or version. */
+/** Reads bytes that pt_store_kernels_fn has stored under a key, perhaps in another process. Returns their number, 0 if
+ * there are none, and writes them to data if size_bytes suffices. The first call has NULL and 0. The library ignores
+ * bytes that are damaged or come from another driver or version. */
 typedef uint64_t (*pt_load_kernels_fn)(void *user, const char *key, void *data, uint64_t size_bytes);
 
-/** Stores a driver's compiled kernels under a key, in place of earlier ones. Storing may fail.
- *
- * key has 32 hexadecimal digits and can be a file's name. It depends on the device's model, its driver and the kernels'
- * code. data is valid during the call.
+/** Stores a driver's compiled kernels under a key, in place of earlier ones. Storing may fail. key has 32 hexadecimal
+ * digits and can be a file's name. data is valid during the call.
  */
 typedef void (*pt_store_kernels_fn)(void *user, const char *key, const void *data, uint64_t size_bytes);
 
 /** Bits of pt_create_info.flags. */
 enum {
     PT_CREATE_VALIDATION = 1, /**< the Khronos validation layer reports to log; absent: PT_ERROR_UNSUPPORTED */
-    /** no kernels with a scene's numbers as constants. They are up to 1.5 times as fast on CPUs, but every scene and
-     * camera needs new ones. Without the flag, scenes that are rendered for some time get them. */
+    /** no kernels that have a scene's numbers as constants. Such kernels are up to 1.5 times as fast on CPUs, but every
+     * scene and camera needs new ones. By default, scenes that are rendered for some time get them. */
     PT_CREATE_NO_SCENE_KERNELS = 2
 };
 
-/** How to make a context. All zeros are defaults, except struct_size. */
+/** Arguments of pt_create. */
 typedef struct pt_create_info {
     uint32_t struct_size;         /**< sizeof(pt_create_info) */
     uint32_t flags;               /**< PT_CREATE_* */
-    const char *device;           /**< NULL: the best one; otherwise see pt/devices.h */
+    const char *device;           /**< NULL: the best device; otherwise see pt/devices.h */
     pt_log_fn log;                /**< may be NULL; called by pt_create and any call on the context */
     void *log_user;               /**< argument of log */
     uint32_t submit_milliseconds; /**< intended duration of a submission, [1, 1000]; default 50 */
     uint32_t reserved;            /**< 0 */
-    /** NULL: the context makes its own instance and devices. Otherwise it uses only this device, see pt/vulkan.h.
-     * device must then be NULL, and PT_CREATE_VALIDATION not set. */
+    /** NULL, or the only device that the context uses (pt/vulkan.h). device must then be NULL, and PT_CREATE_VALIDATION
+     * must not be set. */
     const pt_vulkan *vulkan;
-    const char *shader_dir; /**< a folder of changed GLSL files (pt/shaders.h); NULL or empty: the library's kernels */
+    const char *shader_dir; /**< folder of changed GLSL files (pt/shaders.h); NULL or empty: none */
     /** Functions that keep compiled kernels, so that later processes start sooner. Either may be NULL. pt_create calls
-     * load_kernels for each device. A call that has built kernels ends with store_kernels, even if it fails. These
-     * calls are pt_prepare, pt_accumulate, pt_reload_shaders and pt_readback of first hits. On GPUs every pt_readback
-     * and pt_get_error_estimate may build kernels too. */
+     * load_kernels for each device. Any call that has built kernels calls store_kernels at its end, even if it
+     * fails. */
     pt_load_kernels_fn load_kernels;
     pt_store_kernels_fn store_kernels; /**< see load_kernels */
     void *kernels_user;                /**< argument of both functions */
 } pt_create_info;
 
-/** The library's version, like PT_VERSION. Any thread; never fails. */
+/** The library's PT_VERSION. Any thread; never fails. */
 PT_API uint32_t pt_version(void);
 
 /** Name of a result as in this header ("PT_ERROR_NO_DEVICE"); "unknown result" for other numbers. A static string,
  * never NULL. Any thread; never fails. */
 PT_API const char *pt_result_name(pt_result result);
 
-/** Makes a context.
+/** Makes a context. If info is NULL, all arguments have their defaults.
  *
- * info may be NULL: all defaults. On success the caller owns the context and frees it by pt_destroy. On failure
- * *context is NULL.
- *
- * Any thread, also while other contexts are in use. PT_ERROR_NO_DEVICE: there is no Vulkan, or no suitable device.
- * PT_ERROR_UNSUPPORTED: there is no validation layer. PT_ERROR_SHADER: a file of shader_dir does not compile. */
+ * On success the caller owns the context and frees it by pt_destroy. On failure *context is NULL. Any thread.
+ * PT_ERROR_NO_DEVICE: there is no Vulkan, or no suitable device. PT_ERROR_UNSUPPORTED: there is no validation layer.
+ * PT_ERROR_SHADER: a file of pt_create_info.shader_dir does not compile. */
 PT_API pt_result pt_create(const pt_create_info *info, pt_context **context);
 
-/** Message of the last failed call on this context, or "". It is valid until the next call. Call this on the thread
- * that uses the context.
+/** Message of the last failed call on this context, or "". It is valid until the next call on the context.
  *
  * If this thread's last call was refused because another call was running, this is the message of that refusal. While
- * another thread is in a call, the message says so.
+ * another thread is in a call on the context, the message says so.
  *
  * If context is NULL, this is the message of this thread's last failed call without a context. It is valid until the
  * next such call. The string is UTF-8, never NULL, and owned by the library. Never fails. */
@@ -477,17 +458,16 @@ PT_API const char *pt_last_error(const pt_context *context);
 /** Waits for the device and frees everything. NULL is allowed. Call it from one thread, after all other calls on the
  * context. It never fails.
  *
- * It frees nothing in a forked child, in a callback of the context, or while another thread is in a call on it. The log
- * and pt_last_error report the last two cases, and the context can then be destroyed later. */
+ * It frees nothing in a forked child, in a callback of the context, or while another thread is in a call on it. In the
+ * last two cases the log and pt_last_error report this, and the context can be destroyed later. */
 PT_API void pt_destroy(pt_context *context);
 
 /** Copies a scene into the context and discards the samples.
  *
- * The three setters may be called in any order and repeatedly. If many spheres have only moved a little or changed
- * their colors, the call takes half the time.
+ * The three setters may be called in any order and repeatedly.
  *
  * One thread at a time. PT_CANCELLED: pt_scene.progress asked to stop. PT_ERROR_INVALID_SCENE: the scene breaks a rule.
- * The message has a line for each of the first eight broken rules and counts the rest. */
+ * The message has a line for each of the first eight broken rules and the number of the others. */
 PT_API pt_result pt_set_scene(pt_context *context, const pt_scene *scene);
 
 /** Copies a camera into the context and discards the samples. One thread at a time. */
@@ -496,11 +476,11 @@ PT_API pt_result pt_set_camera(pt_context *context, const pt_camera *camera);
 /** Copies render settings into the context and discards the samples.
  *
  * Allocates 112 bytes a pixel on the device. One thread at a time. PT_ERROR_UNSUPPORTED: the device has no buffers of
- * that size. PT_ERROR_OUT_OF_DEVICE_MEMORY: it lacks memory. In both cases, render fewer rows at a time. */
+ * that size; render fewer rows at a time. The same helps against PT_ERROR_OUT_OF_DEVICE_MEMORY. */
 PT_API pt_result pt_set_render(pt_context *context, const pt_render *render);
 
-/** Builds the kernels for the present scene, camera and render settings ahead of pt_accumulate. It cannot be
- * interrupted, because drivers cannot.
+/** Builds the kernels for the present scene, camera and render settings ahead of pt_accumulate. Drivers cannot be
+ * interrupted while they build a kernel.
  *
  * A kernel depends on the kinds and numbers of surfaces, and on which side of them the camera is, but not on their
  * positions. The samples stay.
@@ -509,23 +489,23 @@ PT_API pt_result pt_set_render(pt_context *context, const pt_render *render);
  * scene exceeds the device's limits. */
 PT_API pt_result pt_prepare(pt_context *context);
 
-/** Adds samples to every pixel, or as info says, and returns when they are done.
+/** Adds samples, and returns when they are taken.
  *
  * The bits of the sum do not depend on how samples are split over calls. Samples more than 2^20 times as bright as the
- * brightest emission are left out and counted (pt_stats.rejected_samples). The estimators uniform, cosine and light get
- * such samples on surfaces of glossiness beyond 1e5, because they do not sample the lobe to find lamps.
+ * brightest emission are left out and counted (pt_stats.rejected_samples). The estimators uniform, cosine and light can
+ * have such samples on surfaces of glossiness beyond 1e5.
  *
  * One thread at a time. PT_CANCELLED and PT_TARGET_REACHED: fewer samples were taken, all of them complete.
  * PT_ERROR_INVALID_STATE: scene, camera or render settings are missing. PT_ERROR_UNSUPPORTED: the scene exceeds the
- * device's limits. After a failure complete samples are kept, and pt_stats.sample_count is their number. It is 0 if
- * several devices had begun samples that they could not complete. */
+ * device's limits. After a failure complete samples are kept, and pt_stats.sample_count is their number. The number is
+ * 0 if several devices had begun samples that they could not complete. */
 PT_API pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *info);
 
-/** Writes a PT_QUANTITY_* of all pixels or a rectangle.
+/** Writes a quantity of all pixels or of a rectangle.
  *
  * After a failure the contents of image->data are undefined. One thread at a time. PT_ERROR_INVALID_STATE: there is no
- * sample or, for first hits, no scene, camera or render settings. First hits can also fail as pt_prepare does.
- * PT_ERROR_INVALID_ARGUMENT: also coverage without PT_RENDER_COVERAGE. */
+ * sample or, for first hits, no scene, camera or render settings. First hits also fail as pt_prepare does.
+ * PT_ERROR_INVALID_ARGUMENT: coverage is read without PT_RENDER_COVERAGE. */
 PT_API pt_result pt_readback(pt_context *context, const pt_image *image);
 
 #ifdef __cplusplus
