@@ -10,7 +10,7 @@ layout(push_constant) uniform Push { AddConstants add; };
 
 #include "film.glsl"
 
-layout(set = 0, binding = BINDING_ADDED) readonly buffer Added { uint words[]; } added; // the same planes as a film's
+layout(set = 0, binding = BINDING_ADDED) readonly buffer Added { uint words[]; } added;
 
 void main()
 {

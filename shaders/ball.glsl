@@ -1,14 +1,14 @@
-// Ray tests for balls and capsules. A capsule is a ball swept along a segment. KINDS and TREE_KINDS have a bit per
-// kind. Included by scene.glsl.
+// Ray tests for balls and capsules. A capsule is a ball swept along a segment. The argument `kinds` has a bit for each
+// kind that may occur.
 #ifndef BALL_GLSL
 #define BALL_GLSL
 
 #include "maths.glsl"
 
-// Finite, because Vulkan does not promise infinities.
+// Finite, because Vulkan does not guarantee infinities.
 const float NO_HIT = 3.0e38;
 
-// A ball at one moment, or a capsule's first end. axis has the vector to the capsule's other end and 1 / its length.
+// A ball at one time, or the first end of a capsule. axis.xyz is the vector to the other end, axis.w is 1 / its length.
 struct Ball {
     vec4 centre_radius;
     vec4 axis;
@@ -26,7 +26,8 @@ Ball ball_from(vec4 centre_radius, vec4 way, float time, uint kinds)
     return Ball(centre_radius, is_capsule ? way : NO_AXIS);
 }
 
-// The center on a capsule's axis nearest to a point. to_first leads from the point to the first center.
+// The point of a capsule's axis that is nearest to a given point. to_first is the vector from that point to the first
+// end.
 vec3 nearest_centre(Ball ball, vec3 centre, vec3 to_first, uint kinds)
 {
     if ((kinds & KIND_CAPSULE) == 0u)
@@ -35,19 +36,19 @@ vec3 nearest_centre(Ball ball, vec3 centre, vec3 to_first, uint kinds)
     return centre + clamp(-dot(to_first, axis.xyz * axis.w) * axis.w, 0.0, 1.0) * axis.xyz;
 }
 
-// sphere_distance() for scenes whose paths never enter a sphere.
+// sphere_distance() for scenes whose paths are never inside a sphere.
 float distance_from_outside(vec3 to_centre, float radius, vec3 direction, bool leaving)
 {
     float b = dot(to_centre, direction);
     vec3 across = to_centre - b * direction;
     float squared_half_chord = radius * radius - dot(across, across);
-    float nearer = b - sqrt(squared_half_chord); // arbitrary if there is no root
+    float nearer = b - sqrt(squared_half_chord); // undefined if the ray misses
     return !leaving && squared_half_chord >= 0.0 && b > 0.0 ? nearer : NO_HIT;
 }
 
 // Distance along a unit vector to a sphere, or NO_HIT (shaders/README.md, section 3). If `leaving`, the ray starts on
-// the sphere, on the side that `inside` gives. Otherwise `outside` gives the ray's side. Rounding may flip the sign of
-// the distance, so callers say on which side the ray is.
+// the sphere, on the side given by `inside`. Otherwise `outside` gives the side of the ray's start. Callers pass the
+// side, because rounding may flip the sign of the distance.
 float sphere_distance(vec3 to_centre, float radius, vec3 direction, bool leaving, bool inside, bool outside)
 {
     if (INSIDE == 0)
@@ -63,8 +64,8 @@ float sphere_distance(vec3 to_centre, float radius, vec3 direction, bool leaving
     return met ? distance : NO_HIT;
 }
 
-// Whether the sphere blocks a shadow ray from outside all spheres. The test is b - sqrt(r^2 - l^2) < distance, without
-// the root. at_end: the ray starts or ends on the sphere.
+// Whether the sphere blocks a shadow ray that starts outside all spheres: b - sqrt(r^2 - l^2) < distance, without the
+// root. at_end: the ray starts or ends on the sphere.
 bool sphere_blocks(vec3 to_centre, float radius, vec3 direction, bool at_end, float distance)
 {
     float b = dot(to_centre, direction);
@@ -76,15 +77,15 @@ bool sphere_blocks(vec3 to_centre, float radius, vec3 direction, bool at_end, fl
 
 // Returns the vector from a capsule's first center to the center of the ball that a ray enters first, or leaves last.
 //
-// The axis has the unit vector u and the length L. Let c = u . direction. Let p and l be the parts of u and to_first
-// across the ray. The ray enters the ball at s of the axis at the distance b + s c - sqrt(r^2 - |l + s p|^2). This is
-// least at s = (n - c h) / |p|, with n = -l . p / |p| and h^2 = r^2 - |l + n p / |p||^2. The last ball is at s = (n + c
-// h) / |p|. The first distance is convex in s and the last one concave, so s is clamped to [0, L]. If |p| = 0, the sign
-// of c h chooses an end.
+// The axis has the unit vector u and the length L. Let c = u . direction. Let p and l be the components of u and
+// to_first perpendicular to the ray, and b the component of to_first along it. The ray enters the ball at position s of
+// the axis at the distance b + s c - sqrt(r^2 - |l + s p|^2). The minimum is at s = (n - c h) / |p|, with n = -l . p /
+// |p| and h^2 = r^2 - |l + n p / |p||^2. The ray leaves the last ball at s = (n + c h) / |p|. Both distances are
+// monotonic on either side of these s, so s is clamped to [0, L]. If |p| = 0, the sign of c h chooses an end.
 //
-// Rounding shifts the ends across the ray by d <= 2^-22 (|to_first| + L). This shifts s by e = d / |p| and the hit
-// distance by e^2 / (2 h |p|). If |p|^2 < 2 d / h, the ray might miss the ball, so h - d replaces h. The hit distance
-// is then too large by at most d / |p|.
+// Rounding moves the ends perpendicular to the ray by d <= 2^-22 (|to_first| + L). This changes s by e = d / |p| and
+// the hit distance by e^2 / (2 h |p|). If |p|^2 < 2 d / h, the ray might miss the ball, so h - d replaces h. The hit
+// distance is then too large by at most d / |p|.
 vec3 swept_to(vec3 to_first, vec4 axis, float radius, vec3 direction, bool to_last)
 {
     vec3 unit = axis.xyz * axis.w;
@@ -110,8 +111,9 @@ vec3 to_met(Ball ball, vec3 to_first, vec3 direction, bool to_last, uint kinds)
     return to_first + swept_to(to_first, ball.axis, ball.centre_radius.w, direction, to_last);
 }
 
-// Whether a ray from another surface starts outside a sphere. If rays pass surfaces, the two surfaces may coincide,
-// such as an atom and the end of its bond. Within `rounding` of the sphere, a ray that leads outwards is outside.
+// Whether a ray from another surface starts outside a sphere. With TREE_OPACITY the two surfaces may coincide, for
+// example at an atom and the end of its bond. If the start is within `rounding` of the sphere, the ray's direction
+// decides.
 bool is_outside(vec3 to_centre, float radius, vec3 direction, float rounding)
 {
     float squared = dot(to_centre, to_centre);
@@ -122,8 +124,8 @@ bool is_outside(vec3 to_centre, float radius, vec3 direction, float rounding)
     return above > nearly || (above > -nearly && dot(to_centre, direction) < 0.0);
 }
 
-// sphere_distance() for a ball or capsule. from_side leads from the point that decides the side to the first center. A
-// ray inside a capsule hits its last ball.
+// sphere_distance() for a ball or capsule. from_side is the vector to the first center from the point that determines
+// the side. A ray inside a capsule hits its last ball.
 float ball_distance(Ball ball, vec3 to_first, vec3 from_side, vec3 direction, bool leaving, bool inside, float rounding,
                     uint kinds)
 {

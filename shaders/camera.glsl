@@ -1,4 +1,4 @@
-// A camera at or behind the origin: a pinhole, or parallel rays (ORTHOGRAPHIC).
+// Camera rays. The camera is at or behind the origin.
 #ifndef CAMERA_GLSL
 #define CAMERA_GLSL
 
@@ -24,8 +24,8 @@ vec3 camera_direction(CameraView camera, vec2 from_middle)
     return normalize(camera.forward + from_middle.x * camera.right - from_middle.y * camera.up);
 }
 
-// Rays start at the pinhole or, with STARTS_AHEAD, on the plane through the origin across the view. Nothing in view is
-// nearer than this plane (lib/kernel/ray_start.h).
+// Rays start at the pinhole. With STARTS_AHEAD they start on the plane through the origin perpendicular to the view. No
+// surface in view is before this plane (lib/kernel/ray_start.h).
 vec3 camera_origin(CameraView camera, vec2 from_middle)
 {
     if (STARTS_AHEAD == 0)

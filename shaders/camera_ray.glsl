@@ -1,4 +1,3 @@
-// The camera ray of a sample. With LENS it starts on a thin lens.
 #ifndef CAMERA_RAY_GLSL
 #define CAMERA_RAY_GLSL
 
@@ -7,8 +6,7 @@
 #include "sampling.glsl"
 
 // All rays of an image place intersect in the plane of focus (shaders/README.md, section 2). disc is a point of the
-// unit disc, right and down. lens_blur is the lens's radius times the length of forward over the plane's distance.
-// lens_radius is the radius of the disc where rays start.
+// unit disc, right and down.
 CameraRay ray_through_lens(CameraView camera, uvec2 pixel, vec3 numbers, vec2 disc)
 {
     vec2 from_middle = image_place(camera, pixel, numbers.xy);

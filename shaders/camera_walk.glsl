@@ -7,7 +7,6 @@
 #include "tree_walk.glsl"
 #include "vertex.glsl"
 
-// opacity_number belongs to vertex 0, the camera.
 Walk walk_from_camera(CameraRay ray, uint opacity_number)
 {
     Hit hit = closest_hit(ray.origin, ray.direction, ray.time);

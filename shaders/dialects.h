@@ -1,4 +1,4 @@
-// Lets one text compile as C++ and as GLSL. The host computes shared formulas in double, kernels in float32.
+// Lets headers compile as C++ and as GLSL. The host computes shared formulas in double, kernels in float32.
 #ifndef PT_DIALECTS_H
 #define PT_DIALECTS_H
 
@@ -28,8 +28,7 @@ using std::sqrt;
 
 inline constexpr float infinity = std::numeric_limits<float>::infinity();
 
-// Arguments are passed by value, so that compilers vectorise loops. If one is NaN the first is returned, as by
-// std::min.
+// Arguments are passed by value, so that compilers vectorise loops. If one is NaN, the result is a, as with std::min.
 template <typename Type>
 constexpr Type less_of(Type a, Type b) {
     return b < a ? b : a;
@@ -79,7 +78,7 @@ inline real square_of_quotient(real dividend, real square_of_divisor) {
 #define more_of max
 #define infinity uintBitsToFloat(0x7f800000u)
 
-// Divides before squaring. The dividend's square may overflow, and the square of a small divisor may be 0.
+// Divides before squaring, because the dividend's square may overflow.
 float square_of_quotient(float dividend, float square_of_divisor)
 {
     float quotient = dividend == 0.0 ? 0.0 : dividend * inversesqrt(square_of_divisor);

@@ -1,4 +1,4 @@
-// Maps each use of random numbers to a block of the sample. gpu_layout.h has their order.
+// Maps each use of random numbers to a block of the sample, in the order of gpu_layout.h.
 #ifndef DIMENSIONS_GLSL
 #define DIMENSIONS_GLSL
 
@@ -6,7 +6,7 @@
 
 const bool ROULETTE = MAX_PATH_LENGTH >= ROULETTE_MIN_LENGTH;
 
-// Place in the pixel (x, y) and time (z).
+// Numbers for the place in the pixel (x, y) and the time (z).
 vec3 camera_numbers(SampleKey key)
 {
     return sample_block(key, 0u).xyz;
@@ -17,7 +17,7 @@ vec2 every_lamp_numbers(SampleKey key, uint lamp)
     return sample_block(key, CAMERA_BLOCKS + lamp).xy;
 }
 
-// Direction (x, y) and choice of the spot (z).
+// Numbers for the direction (x, y) and the choice of the spot (z).
 vec3 spot_numbers(SampleKey key)
 {
     return sample_block(key, every_lamp_blocks(CAMERA_BLOCKS, LAMP_COUNT)).xyz;
@@ -38,7 +38,6 @@ uint later_vertex_blocks(uint vertex)
     return first_vertex_blocks() + vertex_blocks(1u, LAMP_COUNT) + (vertex - 2u) * vertex_blocks(2u, LAMP_COUNT);
 }
 
-// `which` is a word of 32 random bits.
 struct ChosenLampNumbers {
     vec2 place;
     uint which;
@@ -50,15 +49,15 @@ ChosenLampNumbers chosen_lamp_numbers(SampleKey branch, uint begin)
     return ChosenLampNumbers(vec2(words.xy >> 8u) * NUMBER_STEP, words.z);
 }
 
-// Direction (x, y), lobe (z), survival (w).
+// Numbers for the direction (x, y), the lobe (z) and the survival (w).
 vec4 direction_numbers(SampleKey branch, uint begin, uint count)
 {
     vec4 numbers = sample_block(branch, begin + count - 1u);
     return GLOSS == 1u ? numbers : numbers.xyzz;
 }
 
-// Decides whether a vertex's ray passes a surface (shaders/README.md, section 8). Vertex 0 is the camera. The last bits
-// choose another lattice for each pixel and each 16 samples.
+// Returns the number that decides which surfaces a vertex's ray passes (shaders/README.md, section 8). Vertex 0 is the
+// camera. The last bits choose a lattice for each pixel and each 16 samples.
 uint opacity_number(SampleKey branch, uint vertex)
 {
     const uint first_block = 1u << 31; // above the blocks of all paths
@@ -66,7 +65,7 @@ uint opacity_number(SampleKey branch, uint vertex)
     if (SAMPLER == SAMPLER_RANDOM)
         return sample_words(branch, block).x;
     uint number = (bitfieldReverse(branch.sample_index) + branch.shift.w + branch.seed.y) * odd_number(block);
-    return number ^ (number >> 16u & TREE_OPACITY_BITS); // bits that 16 samples share
+    return number ^ (number >> 16u & TREE_OPACITY_BITS); // the same for 16 samples
 }
 
 #endif

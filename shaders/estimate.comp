@@ -15,17 +15,17 @@ layout(push_constant) uniform Push { EstimateConstants estimate; };
 
 layout(set = 0, binding = BINDING_RESOLVED) writeonly buffer Groups { TileErrors groups[]; } estimated;
 
-// `counts` has each tile's samples in the older and the newer part, if tiles differ. `squares` gets, on request, each
-// tile's squared relative errors from samples and from unseen light.
+// `counts` has the samples of each tile in the older and the newer part, if tiles differ. With estimate.by_tile,
+// `squares` receives each tile's squared relative errors: x from samples, y from unseen light.
 layout(set = 0, binding = BINDING_TILE_COUNTS) readonly buffer TileCounts { uvec2 counts[]; } tile_samples;
 layout(set = 0, binding = BINDING_TILE_SQUARES) writeonly buffer TileSquares { vec2 squares[]; } tile_squares;
 
 const uint TILES = ESTIMATE_WORKGROUP_SIZE / TILE_SIZE;
 
 struct Findings {
-    uvec2 rejected; // low and high word
-    uint unknown;   // pixels without samples in one of the parts
-    uint lost;      // pixels with unexpected sample counts
+    uvec2 rejected;
+    uint unknown;
+    uint lost;      // pixels whose sample counts are not the expected ones
 };
 
 const uint SQUARE = 0u;
@@ -36,10 +36,10 @@ const uint SQUARE_KINDS = 4u;
 
 struct Squares {
     float sum;
-    float shares; // sum of (value / sum)^2
+    float shares; // sum of (pixel's value / sum)^2
 };
 
-// Sums over a column of a tile, later over the tile.
+// Sums over a column of a tile, and finally over the tile.
 struct Errors {
     Squares squares[SQUARE_KINDS];
     uint met_again;
@@ -47,12 +47,12 @@ struct Errors {
     Findings findings;
 };
 
-// Each invocation has one column of a tile, so that memory reads are adjacent.
+// Each invocation has one column of a tile, so that invocations read adjacent words.
 shared float means[TILE_SIZE][ESTIMATE_WORKGROUP_SIZE]; // of one channel
 shared ValueSet column_sets[ESTIMATE_WORKGROUP_SIZE];
 shared Errors errors[ESTIMATE_WORKGROUP_SIZE];
 
-// Pixels fetched together, which is faster on GPUs.
+// Number of pixels that an invocation fetches at once, which is faster on GPUs.
 const uint PIXELS_ASKED_FOR = 4u;
 
 // number is in units of 2^-60.
@@ -71,7 +71,7 @@ float as_float(uvec4 sum)
 struct Shown {
     float mean;
     float standard_error;
-    float lesser; // lesser mean of the two parts
+    float lesser; // lower mean of the two parts
 };
 
 // quotient.h derives the scale of the difference.
@@ -106,7 +106,6 @@ Findings findings_of(PartCount older, PartCount newer, uvec2 expected)
                     uvec2(older.done, newer.done) != expected ? 1u : 0u);
 }
 
-// Sorts the pixel and its neighbors left and right in the tile.
 Sorted row_about(uint y, uint column, uint first, uint last)
 {
     float left = column > first ? means[y][max(column, 1u) - 1u] : BELOW_ALL;
@@ -114,8 +113,7 @@ Sorted row_about(uint y, uint column, uint first, uint last)
     return sorted(left, means[y][column], right);
 }
 
-// part / sum for sum != 0. The whole sum gives exactly 1 although division may err, because the host subtracts such
-// fractions.
+// part / sum for sum != 0. If they are equal, the result is exactly 1, because the host subtracts such fractions.
 float share_of(float part, float sum)
 {
     return part == sum ? 1.0 : part / sum;
@@ -193,7 +191,7 @@ void main()
     const uint first_tile = estimate.first_tile + corner.x / TILE_SIZE
                           + gl_WorkGroupID.y * ((estimate.film_width + TILE_SIZE - 1u) / TILE_SIZE);
 
-    // This invocation's column. Reads outside the film are moved inside.
+    // Invocations outside the film read a pixel inside.
     const uint pixels = invocation < size.x ? size.y : 0u;
     const uint first_pixel = corner.y * estimate.film_width + corner.x + (pixels > 0u ? invocation : 0u);
     const uint last = size.y - 1u;
@@ -246,7 +244,7 @@ void main()
         }
         barrier();
 
-        // Averages over columns, then tiles. Means are read back, because recomputed ones may round differently.
+        // Value sets of columns, then of tiles. Means are read back, because recomputed ones may round differently.
         ValueSet column_set = empty_set();
         for (uint i = 0u; i < pixels; ++i)
             column_set = with_value(column_set, means[i][invocation]);

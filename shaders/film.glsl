@@ -8,7 +8,7 @@
 
 layout(set = 0, binding = BINDING_FILM) buffer Film { uint words[]; } film;
 
-// Sums of an invocation's samples. Windows include the biases of windows_of().
+// Sums of an invocation's samples. Windows still include the biases of windows_of().
 struct FilmPixel {
     uvec4 windows[3];
     uint accepted;
@@ -20,12 +20,12 @@ FilmPixel empty_film_pixel()
     return FilmPixel(uvec4[3](uvec4(0u), uvec4(0u), uvec4(0u)), 0u, 0u);
 }
 
-// Biases that cut a value into windows (shaders/README.md, section 11; Demmel and Nguyen, "Fast Reproducible
-// Floating-Point Summation", ARITH 2013). A window is below 2^22 units even with rounding towards zero, so 511 windows
-// fit into 32 bits.
+// Adding these biases splits a value into windows of bits (shaders/README.md, section 11; Demmel and Nguyen, "Fast
+// Reproducible Floating-Point Summation", ARITH 2013). A window is below 2^22 units even with rounding towards zero, so
+// the sum of 511 windows fits into 32 bits.
 const vec4 WINDOW_BIASES = vec4(536870912.0, 192.0, 4.57763671875e-5, 1.0913936421275139e-11);
 
-// Includes the biases' bits, which film_store() subtracts modulo 2^32.
+// The result includes the biases' bits, which film_store() subtracts modulo 2^32.
 uvec4 windows_of(float value)
 {
     precise float a = value + WINDOW_BIASES.x;
@@ -79,7 +79,8 @@ uvec4 fixed_point(uvec4 windows)
     return add_with_carry(add_with_carry(a, b), add_with_carry(c, d));
 }
 
-// Adds to a sum's three low words. Returns the addend of the highest word. With is_first the sum is 0 and is not read.
+// Adds to the three low words of a sum, and returns the addend of the highest word. If is_first, the old sum is not
+// read and counts as 0.
 uint film_store_sum(uint first, uint stride, uvec4 sum, bool is_first)
 {
     uvec4 old = uvec4(0u);
@@ -92,11 +93,11 @@ uint film_store_sum(uint first, uint stride, uvec4 sum, bool is_first)
     return new.w;
 }
 
-// Planes that rarely change: the sums' highest words and the number of rejected samples.
+// Planes that rarely change: highest words of the sums, and the number of rejected samples.
 uint rare_plane(uint i) { return i < 3u ? (i + 1u) * FILM_SUM_WORDS - 1u : FILM_REJECTED; }
 
-// pixel is the index of its first word in a part. This is a loop, because lavapipe 22.3 executes the bodies of all ifs.
-// It usually takes one trip.
+// pixel is the index of the pixel's first word in a part. The loop usually takes one trip; lavapipe 22.3 would always
+// execute the bodies of four ifs.
 void film_add_rare_words(uint pixel, uint stride, uvec4 addends)
 {
     uint i = addends.x != 0u ? 0u : addends.y != 0u ? 1u : addends.z != 0u ? 2u : 3u;
@@ -108,12 +109,13 @@ void film_add_rare_words(uint pixel, uint stride, uvec4 addends)
     } while (i < 4u);
 }
 
-// For pixels that several invocations share. Words are added in any order. One invocation sees each overflow.
+// For pixels to which several invocations add. The words are added atomically and in any order, so exactly one
+// invocation sees each overflow.
 void film_store_shared_sum(uint first, uint stride, uvec4 sum)
 {
     uint carry = 0u;
     [[unroll]] for (uint i = 0u; i < FILM_SUM_WORDS; ++i) {
-        uint addend = sum[i] + carry; // overflow gives 0, and the carry stays
+        uint addend = sum[i] + carry; // 0 after overflow, which keeps the carry
         carry = addend < carry ? 1u : 0u;
         if (addend != 0u) {
             uint old = atomicAdd(film.words[first + i * stride], addend);
@@ -122,8 +124,8 @@ void film_store_shared_sum(uint first, uint stride, uvec4 sum)
     }
 }
 
-// shared_pixel: other invocations may add to the pixel. is_first: the part has no sample of the pixel, and only its
-// rare words are 0.
+// shared_pixel: other invocations may add to the pixel at the same time. is_first: the part has no sample of the pixel,
+// and only its rare words are initialised to 0.
 void film_store(uint film_part, uint pixel_in_strip, uint strip_pixel_count, FilmPixel pixel, bool shared_pixel,
                 bool is_first)
 {

@@ -1,4 +1,3 @@
-// A pixel's samples and sums in each part of the film.
 #ifndef FILM_PARTS_GLSL
 #define FILM_PARTS_GLSL
 

@@ -1,6 +1,6 @@
-// First hits of camera rays. Depth and object belong to the ray through the pixel's center at half the shutter's time,
-// because their means are meaningless. Normal and albedo are means over pixel and shutter, because denoisers need the
-// edges of the image.
+// First hits of camera rays. Depth and object come from the ray through the pixel's center at half the shutter's time,
+// because their means are meaningless. Normal and albedo are means over pixel and shutter, because denoisers need edges
+// as smooth as the image's.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
@@ -17,22 +17,20 @@ const uint FLOAT_INFINITY_BITS = 0x7f800000u;
 
 shared vec3 values[WORKGROUP_SIZE];
 
-// Place in the pixel and time: the rank-1 lattice (Korobov 1959) whose points are farthest apart.
+// Returns place in the pixel and time, from the rank-1 lattice (Korobov 1959) with the largest distance between points.
 vec3 lattice_point(uint ray)
 {
     uvec3 point = uvec3(ray, 3u * ray, 5u * ray) % FILTER_RAYS;
     return (vec3(point) + 0.5) / float(FILTER_RAYS);
 }
 
-// opacity_number() of dimensions.glsl, but with one lattice for all pixels, because callers take means over pixels. So
-// the last bits, which choose the lattice, are 0. The golden ratio (0x9e3779b9 / 2^32) spreads the numbers over
-// neighbors.
+// Like opacity_number() of dimensions.glsl, but with one lattice for all pixels, so the bits that choose the lattice
+// are 0. Multiples of the golden ratio (0x9e3779b9 / 2^32) spread the numbers over neighboring pixels.
 uint opacity_number(uint pixel_index, uint ray)
 {
     return ((pixel_index + 1u) * 0x9e3779b9u + bitfieldReverse(ray)) & ~TREE_OPACITY_BITS;
 }
 
-// Depth along the view. All rays start at the depth start_distance.
 float depth_of(CameraRay ray, Hit hit)
 {
     float cosine = dot(ray.direction, view.camera.forward) / length(view.camera.forward);

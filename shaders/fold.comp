@@ -1,4 +1,4 @@
-// Adds the film's other part to the frame's part and empties the other part.
+// Adds the film's other part to the part frame.film_part, and clears the other part.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -34,7 +34,7 @@ void main()
     film_add_rare_words(kept, stride, rare);
     film.words[kept + FILM_ACCEPTED * stride] += film.words[emptied + FILM_ACCEPTED * stride];
 
-    // If a dispatch overwrites the other part next, only its rare words must be 0.
+    // If the next dispatch overwrites the other part, only its rare words must be 0.
     if (frame.is_first == 0u) {
         [[unroll]] for (uint plane = 0u; plane < FILM_WORDS; ++plane)
             film.words[emptied + plane * stride] = 0u;

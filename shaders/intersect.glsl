@@ -20,7 +20,7 @@ void see_plane(inout Hit hit, vec3 origin, vec3 direction, uint plane, float tim
     keep_closer(hit, plane_distance(level_at(plane, origin, time), direction, false, false, height), plane);
 }
 
-// Two ranges of spheres are hidden from the camera: some of the emitting ones, and the last ones.
+// The camera does not see two ranges of spheres: [FIRST_HIDDEN, AFTER_HIDDEN), and the last HIDDEN_OTHERS.
 const bool EMITTERS_HIDE = HIDDEN_LAMPS + HIDDEN_SKIES > 0u;
 const uint FIRST_HIDDEN = EMITTERS_HIDE ? WALKED_LAMPS - HIDDEN_LAMPS : 0u;
 const uint AFTER_HIDDEN = EMITTERS_HIDE ? WALKED_LAMPS + HIDDEN_SKIES : 0u;
@@ -70,8 +70,7 @@ Hit closest_hit_and_shadow(Start start, float time, vec3 direction, ShadowRay sh
     return hit;
 }
 
-// Rounding may put the start behind a plane. The distance is then negative, and long at grazing angles, so it becomes
-// 0.
+// If rounding has put the start behind a plane, the distance is negative, and at grazing angles large. It becomes 0.
 Hit ahead(Hit hit)
 {
     if (KNOWN_SIDES == 1 && PLANE_COUNT > 0u)

@@ -8,7 +8,6 @@
 
 const bool HAS_LAMP_TREE = LAMP_TREE_LEVELS > 0u;
 
-// Four sibling nodes, one per component.
 struct Siblings {
     vec4 x, y, z;
     vec4 power;  // 0: no node
@@ -30,7 +29,7 @@ Siblings siblings_of(uint group, Vertex vertex, float time)
                     stored_word(word + 3u), stored_word(word + 4u));
 }
 
-// Probabilities are precise: choosing a lamp and computing its probability again must round alike.
+// Probabilities are `precise`, because walk_by() and walk_to() must compute the same bits for a lamp.
 
 // The importance of shaders/README.md, section 6. Below the horizon a quotient avoids cancellation and is never 0.
 vec4 node_importance(Siblings nodes, vec3 normal)
@@ -107,9 +106,9 @@ LampWalk walk_to(uint lamp)
 
 LampWalk walk_by(uint number) { return LampWalk(true, 0u, float(number >> 8u) * NUMBER_STEP, number, 1.0); }
 
-// Takes one of four children in proportion to `importance` or, if all are 0, to `others`. It is the last child of
-// positive importance for which the sum over earlier children does not exceed the random number. So rounding never
-// chooses importance 0. A choice with probability p leaves a number 1 / p times as coarse; bits of a hash refill it.
+// Takes one of four children in proportion to `importance` or, if all are 0, to `others`: the last child of positive
+// importance for which the sum over earlier children is at most the random number. So rounding never chooses importance
+// 0. A choice with probability p removes log2(1 / p) random bits from walk.u. A hash replaces them.
 uint take_child(inout LampWalk walk, vec4 importance, vec4 others, uint given)
 {
     vec4 part = sum_of(importance) > 0.0 ? importance : others;

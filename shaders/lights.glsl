@@ -1,4 +1,4 @@
-// Lamps: emitting spheres, chosen by possible contribution and sampled by solid angle.
+// Lamps are emitting spheres. They are chosen by a bound of their contribution and sampled by solid angle.
 #ifndef LIGHTS_GLSL
 #define LIGHTS_GLSL
 
@@ -16,7 +16,7 @@ struct LampView {
     float weight;       // for the choice of a lamp; 0: cannot be sampled
 };
 
-// The weight of shaders/README.md, section 6. Only directions find lamps that contain or touch the vertex.
+// The weight of shaders/README.md, section 6. A lamp that contains or touches the vertex gets weight 0.
 LampView view_lamp(Vertex vertex, uint lamp, float time)
 {
     vec4 sphere = sphere_of_lamp(lamp, time);
@@ -44,7 +44,7 @@ struct Lamps {
     float total_weight;
     float in_sight;        // number of lamps with positive weight
     float share_of_weight;
-    float uniform_share; // probability of each such lamp in uniform choices
+    float uniform_share; // probability of each of them in uniform choices
     LampTreeTop tree;
 };
 
@@ -94,7 +94,7 @@ float lamp_probability(Lamps lamps, float weight)
     return weight > 0.0 ? (LAMP_COUNT == 1u ? 1.0 : probability) : 0.0;
 }
 
-// Uniform choices take any lamp here, because the tree does not count the lamps of positive weight.
+// Uniform choices take any lamp, because the tree does not count lamps of positive weight.
 float lamp_probability_by_tree(LampWalk walk)
 {
     precise float probability = (1.0 - UNIFORM_SHARE) * walk.probability + UNIFORM_SHARE / float(LAMP_COUNT);
@@ -118,7 +118,7 @@ LampChoice choice_of(Lamps lamps, uint lamp)
     return LampChoice(lamp, view, lamp_probability(lamps, view.weight));
 }
 
-// number is in units of 2^-32. A uniform choice may take a lamp that cannot be sampled.
+// number is in units of 2^-32. The chosen lamp may have weight 0.
 LampChoice choose_by_tree(Lamps lamps, uint number)
 {
     const uint uniform_numbers = 429496729u; // UNIFORM_SHARE 2^32
@@ -133,8 +133,8 @@ LampChoice choose_by_tree(Lamps lamps, uint number)
     return LampChoice(lamp, view_lamp(lamps.vertex, lamp, lamps.time), lamp_probability_by_tree(walk));
 }
 
-// Low numbers choose uniformly among the lamps of positive weight, other numbers by weight. Weights are summed in the
-// same order as for the total, so that rounding does not suppress small probabilities.
+// Numbers below UNIFORM_SHARE choose uniformly among the lamps of positive weight, other numbers by weight. Weights are
+// summed in the same order as for the total, so that rounding does not suppress small probabilities.
 LampChoice choose(Lamps lamps, uint number)
 {
     if (HAS_LAMP_TREE)
@@ -172,8 +172,8 @@ struct LampSample {
     float density; // over solid angle, for this lamp; 0: cannot be sampled
 };
 
-// A direction uniform in the lamp's cone, with h = 1 - cos of the angle to its axis. The lamp's distance follows from
-// h; an intersection test would miss tiny far lamps by rounding.
+// Takes a direction uniform in the lamp's cone, with h = 1 - cos of the angle to its axis. The distance is computed
+// from h, because an intersection test would miss tiny far lamps by rounding.
 LampSample sample_lamp(LampChoice choice, vec2 u)
 {
     LampView view = choice.view;

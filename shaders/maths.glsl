@@ -14,7 +14,7 @@ const float LARGEST_NUMBER = 1.0 - NUMBER_STEP;
 // 1.5 * 2^23. For |x| < 2^22 the low bits of x + ROUNDING_BIAS are round(x).
 const float ROUNDING_BIAS = 12582912.0;
 
-// min() and max() if one argument is not negative. lavapipe compares bits faster, and their order is the same.
+// min() and max() if one argument is >= 0. Bits then have the same order as numbers, and lavapipe compares them faster.
 float at_most(float number, float limit)
 {
     if (INTEGER_ORDER == 0u)
@@ -32,7 +32,7 @@ float at_least(float number, float limit)
 // Components must be >= 0.
 float strongest_of(vec3 color) { return at_least(color.r, at_least(color.g, color.b)); }
 
-// Arguments must be <= 0, for which the order of bits is reversed.
+// max() for arguments <= 0, whose bits are in reverse order.
 float nearer_to_zero(float a, float b)
 {
     if (INTEGER_ORDER == 0u)
@@ -42,7 +42,7 @@ float nearer_to_zero(float a, float b)
 
 // Sine and cosine of 2 pi u for u in [0, 1], within 4.5 ulp, also near zeros. With m = min(u, 1 - u) and w = m - 1/4,
 // cos(2 pi u) = -sin(2 pi w) = w p(w^2) and sin(2 pi u) = +-cos(2 pi w) = (1/2 - u) m q(w^2). p and q are minimax
-// (Remez 1934), with errors of 5.3e-9 and 1.0e-9.
+// polynomials (Remez 1934) with relative errors of 5.3e-9 and 1.0e-9.
 void sin_cos_turn(float u, out float sine, out float cosine)
 {
     float m = at_most(u, 1.0 - u);
@@ -52,8 +52,8 @@ void sin_cos_turn(float u, out float sine, out float cosine)
     sine = (0.5 - u) * m * (16.0 + z * (-59.8273288 + z * (81.7913450 + z * (-58.5570666 + z * 24.7337946))));
 }
 
-// log2(1 - y) for y in [0, 1), within 18 ulp. Below 1/4 it is a polynomial with a relative error of 8e-9. Above, Vulkan
-// bounds log2 by 2^-21.
+// log2(1 - y) for y in [0, 1), within 18 ulp. For y < 1/4 a polynomial has a relative error of 8e-9. For larger y
+// Vulkan bounds the error of log2 by 2^-21.
 float log2_one_minus(float y)
 {
     float tail =
@@ -61,10 +61,10 @@ float log2_one_minus(float y)
     return y < 0.25 ? -y * (1.44269504 + y * tail) : log2(1.0 - y);
 }
 
-// 2^x is 0 below this x, because denormal numbers are slow on CPUs.
+// Below this x, 2^x is replaced by 0, because denormal numbers are slow on CPUs.
 const float EXP2_UNDERFLOW = -100.0;
 
-// 2^x for x <= 0. The error is at most 3 ulp of 1, because Vulkan allows 3 + 2 |x| ulp of the result.
+// 2^x for x <= 0. Vulkan allows 3 + 2 |x| ulp of the result, which is at most 3 ulp of 1.
 float exp2_negative(float x)
 {
     return x < EXP2_UNDERFLOW ? 0.0 : exp2(x);
@@ -83,7 +83,7 @@ float one_minus_exp2(float x)
     return (1.0 - power) - power * e;
 }
 
-// Positive if any component is positive; a rounded luminance may be 0.
+// Unlike a rounded luminance, the mean is positive if any component is.
 float mean(vec3 color)
 {
     return (color.r + color.g + color.b) * (1.0 / 3.0);

@@ -1,4 +1,4 @@
-// A pixel and its neighbors in its tile, in one channel. Values are float32 >= 0 on the host, too, because they are
+// A pixel and its neighbors in its tile, in one channel. Values are >= 0. The host too uses float32, because values are
 // only compared.
 #ifndef PT_NEIGHBOURHOOD_H
 #define PT_NEIGHBOURHOOD_H
@@ -9,7 +9,7 @@
 namespace pt::gpu {
 #endif
 
-// A neighbor outside the tile.
+// The value of a neighbor outside the tile.
 PT_CONSTANT float BELOW_ALL = -1.0f;
 
 // Three values in ascending order.
@@ -49,12 +49,12 @@ PT_FUNCTION Sorted with_missing_above(Sorted row)
 }
 
 struct Neighbourhood {
-    float median; // the lower middle one of an even number of values; 0 for a lone pixel
+    float median; // of an even number of values the lower middle one; 0 for a lone pixel
     float largest;
 };
 
-// Rows have missing values first. The median of k present values is the fifth of nine if 4 - (k - 1) / 2 missing values
-// count as lowest and the rest as highest. At an edge two of three count as lowest, at a corner three of five.
+// Rows are sorted, with missing values first. The median of k present values is the fifth of nine values if 4 - (k - 1)
+// / 2 of the missing ones count as lowest and the rest as highest: at an edge two of three, at a corner three of five.
 PT_FUNCTION Neighbourhood neighbourhood(Sorted above, Sorted row, Sorted below, bool is_first_row, bool is_last_row,
                                         bool is_beside_edge)
 {
@@ -86,7 +86,7 @@ PT_FUNCTION Neighbourhood neighbourhood_in_line(Sorted line)
     return near;
 }
 
-// Rows have one value each, in `high`.
+// Each row has one value, in `high`.
 PT_FUNCTION Sorted column_of(Sorted above, Sorted row, Sorted below, bool is_first_row, bool is_last_row)
 {
     return sorted(is_first_row ? BELOW_ALL : above.high, row.high, is_last_row ? BELOW_ALL : below.high);

@@ -1,4 +1,3 @@
-// The light of a sample.
 #ifndef PATH_GLSL
 #define PATH_GLSL
 
@@ -11,8 +10,8 @@
 #include "step.glsl"
 #include "vertex.glsl"
 
-// Light over a second vertex in the direction of a spot, weighted against the branches, which also find it (Veach 1997,
-// chapter 9). Only branches find light over more vertices.
+// Light that arrives from a second vertex in the direction of a spot. It is weighted against the branches, which also
+// find it (Veach 1997, chapter 9). Light over more vertices is left to the branches.
 vec3 light_by_way_of_spot(Vertex vertex, Material material, Spots spots, SampleKey key, float time)
 {
     vec3 numbers = spot_numbers(key);
@@ -34,7 +33,7 @@ vec3 light_by_way_of_spot(Vertex vertex, Material material, Spots spots, SampleK
     return met ? path.radiance : vec3(0.0); // may be NaN after a miss
 }
 
-// Weight of the light that a branch finds over its second vertex, because a spot's ray may find it, too.
+// Weight of the light that a branch finds at its second vertex, because light_by_way_of_spot() may find it too.
 float share_beside_spots(Spots spots, Path path, Vertex first, float time)
 {
     float distance = dot(path.arrival.point - first.position, path.arrival.direction);
@@ -42,7 +41,7 @@ float share_beside_spots(Spots spots, Path path, Vertex first, float time)
     return density > 0.0 ? power_heuristic(arrival_density, density) : 1.0;
 }
 
-// Light of the first vertex and all paths from it. This is most of the picture's light, so several branches leave, and
+// Light reflected at the first vertex. It is most of the picture's light, so several branches leave the vertex, and
 // every lamp is sampled if there are few.
 vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
 {
@@ -54,7 +53,8 @@ vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
     if (SAMPLE_LAMPS)
         lamps = lamps_from(vertex, time);
 
-    // The shadow ray to lamp b shares a walk with branch b. Lamps beyond the last branch have walks of their own.
+    // The shadow ray to lamp b is traced in one walk with branch b. Lamps beyond the last branch have walks of their
+    // own.
     vec3 radiance = vec3(0.0);
     if (SAMPLE_EVERY_LAMP && LAMP_COUNT > BRANCH_COUNT) {
         Start start = Start(vertex.position, vertex.surface, vertex.inside);
@@ -111,11 +111,10 @@ vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
 #include "camera_ray.glsl"
 #include "camera_walk.glsl"
 
-uint covered_samples = 0u; // with COVERAGE: samples of this invocation whose camera rays have hit a surface
+uint covered_samples = 0u; // with COVERAGE: samples whose camera rays have hit a surface
 
 vec3 emitted_by(uint surface) { return may_emit(surface) ? emission_of(surface).rgb : vec3(0.0); }
 
-// Emission plus throughput-weighted light at up to MAX_PATH_LENGTH vertices.
 vec3 path_radiance(CameraView camera, uvec2 pixel, SampleKey key)
 {
     CameraRay ray = camera_ray(camera, pixel, key);

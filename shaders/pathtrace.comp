@@ -1,4 +1,5 @@
-// The path tracer. Each invocation takes some samples of a pixel. Invocations along y share a pixel.
+// The path tracer. Each invocation takes some samples of a pixel. Invocations along y take different samples of the
+// same pixel.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -13,7 +14,8 @@ layout(push_constant) uniform Push { FrameConstants frame; };
 #include "tile_pixel.glsl"
 #include "tree_path.glsl"
 
-// `held` is a copy of the push constants, which lavapipe 22.3 reads for one invocation after the other.
+// `held` is a copy of the push constants, because lavapipe 22.3 reads push constants for one invocation after the
+// other.
 
 SampleKey key_of_sample(SampleKey pixel, FrameConstants held, uint number)
 {
@@ -42,7 +44,7 @@ void take_samples(uvec2 pixel, uint pixel_index, uint done, uint end, inout Film
     } while (done < end);
 }
 
-// The same as take_samples(), in steps of walks (tree_path.glsl).
+// Like take_samples(), but in steps of walks (tree_path.glsl).
 void take_samples_by_steps(uvec2 pixel, uint pixel_index, uint done, uint end, inout FilmPixel gathered)
 {
     FrameConstants held = frame;

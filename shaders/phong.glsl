@@ -12,7 +12,7 @@ struct Material {
     vec3 diffuse;               // albedo / pi
     vec3 specular;              // factor times (n + 2) / (2 pi)
     float glossiness;           // n
-    float specular_probability; // of drawing a direction from the lobe
+    float specular_probability; // probability that sample_direction() samples the lobe
 };
 
 Material material_of(uint surface)
@@ -23,8 +23,8 @@ Material material_of(uint surface)
     return Material(diffuse.rgb, specular.rgb, specular.a, choose_lobe ? diffuse.a : 0.0);
 }
 
-// Least probability of the lobe for a path's last direction, if lamps are sampled (shaders/README.md, section 5). Below
-// 1, because lamp sampling misses some light.
+// Minimum probability of the lobe for a path's last direction, if lamps are sampled (shaders/README.md, section 5). It
+// is below 1, because lamp sampling misses some light.
 const float LAST_SPECULAR_PROBABILITY = 0.97;
 
 Material at_last_direction(Material material)
@@ -34,20 +34,20 @@ Material at_last_direction(Material material)
     return material;
 }
 
-// Returns max(0, wo . r)^n = 2^(n log2(1 - y)) with y = |wo - r|^2 / 2. The chord wo - r keeps y precise near r, where
-// pow(wo . r, n) errs by 35% at n = 1e6. For n = 0 the power is 1 in the half space about r.
+// Returns max(0, wo . r)^n = 2^(n log2(1 - y)) with y = |wo - r|^2 / 2. The difference wo - r keeps y precise near r,
+// where pow(wo . r, n) has an error of 35% at n = 1e6. For n = 0, 0^0 counts as 0.
 float lobe_power(vec3 r, vec3 wo, float n)
 {
     vec3 chord = wo - r;
     float y = 0.5 * dot(chord, chord);
-    float power = exp2_negative(n * log2_one_minus(y)); // arbitrary for y >= 1
+    float power = exp2_negative(n * log2_one_minus(y)); // undefined for y >= 1
     return y < 1.0 ? power : 0.0;
 }
 
 struct Reflection {
     vec3 f;
-    float cosine;  // of the angle to the normal; 0 below the horizon
-    float density; // of sample_direction(), over solid angle
+    float cosine;  // cosine of the angle to the normal; 0 below the horizon
+    float density; // density of sample_direction() over solid angle
 };
 
 Reflection reflection(Material material, Vertex vertex, vec3 outgoing)
@@ -65,13 +65,14 @@ Reflection reflection(Material material, Vertex vertex, vec3 outgoing)
     return Reflection(f, cosine, ESTIMATOR == ESTIMATOR_UNIFORM ? 0.5 / PI : density);
 }
 
-// Cosine and sine of the angle to r, for the density (n + 1) / (2 pi) (wo . r)^n.
+// Samples the angle to r with density (n + 1) / (2 pi) (wo . r)^n. Returns its cosine and sine.
 vec2 lobe_cos_sin(float n, float u)
 {
     return narrow_cos_sin(one_minus_exp2(log2_one_minus(u) / (n + 1.0)));
 }
 
-// The direction may be below the horizon, where the reflection is 0. reflection() has the density of the whole lobe.
+// The direction may be below the horizon, where the reflection is 0. reflection() computes the density of the whole
+// lobe.
 vec3 sample_direction(Material material, Vertex vertex, vec2 place, float lobe)
 {
     if (ESTIMATOR == ESTIMATOR_UNIFORM)

@@ -1,5 +1,5 @@
-// Expected squared errors of a pixel (shaders/README.md, section 11). Values are radiance on the host and film units in
-// kernels.
+// Expected squared errors of a pixel in one channel (shaders/README.md, section 11). Values are radiance on the host
+// and film units in kernels.
 #ifndef PT_PIXEL_ERROR_H
 #define PT_PIXEL_ERROR_H
 
@@ -49,43 +49,44 @@ PT_FUNCTION ValueSet united(ValueSet a, ValueSet b)
     return a;
 }
 
-// The largest of the others may be a firefly.
+// The largest other value may be a firefly.
 PT_FUNCTION real mean_besides_and_without_largest(ValueSet values, real value)
 {
     real largest_of_others = value < values.largest ? values.largest : values.second;
     return more_of(values.sum - value - largest_of_others, 0.0) / more_of(values.count - 2.0, 1.0);
 }
 
-// Brightness around a pixel, from its neighbors' median and its tile. It is at least an eighth of a brighter neighbor,
-// because the mean of eight pixels cannot be less.
+// Brightness around a pixel, from the median of its neighbors and from its tile. It is at least an eighth of a brighter
+// neighbor, because the mean of its eight neighbors cannot be less.
 PT_FUNCTION real around(real mean, ValueSet tile, real median_beside, real largest_beside)
 {
     real of_brighter = largest_beside > mean ? 0.125 * largest_beside : 0.0;
     return more_of(more_of(median_beside, of_brighter), mean_besides_and_without_largest(tile, mean));
 }
 
-// Squared errors are divided by the estimated limit of the pixel. The limit must not come from the bright sample that
-// made the error. It is the pixel's mean or, if less, the greater of the darker part's mean and the brightness around.
+// Relative squared errors are divided by the square of the pixel's estimated limit. A bright sample that causes a large
+// error must not also raise this estimate. So the limit is the pixel's mean or, if less, the larger of the darker
+// part's mean and the brightness around.
 //
 // At an edge the surroundings are bright, but at least half of the samples are dark. Let samples have the value M with
-// probability p, and let one of N samples have had it. Then the mean is T = M / N, the squared error about T^2, and the
-// limit M p. If the prior of p is uniform, y = N p has the density y e^-y. The expectation of T^2 / (M^2 p^2 + k^2),
-// with k^2 = known, is the integral of y e^-y / (y^2 + k^2 / T^2). This is ln(T / k) minus about 1. The constant
-// depends on the prior, and without it the result fits the calibration scenes.
+// probability p, otherwise 0, and let exactly one of N samples have had the value M. Then the mean is T = M / N, the
+// squared error about T^2, and the limit M p. If p is uniformly distributed a priori, y = N p has the density y e^-y.
+// The expectation of T^2 / (M^2 p^2 + k^2), with k^2 = known, is the integral of y e^-y / (y^2 + k^2 / T^2). This is
+// ln(T / k) minus about 1. The 1 depends on the prior and is left out; the result then fits the calibration scenes.
 struct Limit {
     real square;       // limit^2 + offset^2
     real known;        // (mean of the darker part)^2 + offset^2
-    real light_beyond; // > 0 at an edge, where the logarithm applies
-    real alone;        // > 0 if the pixel is brighter than its surroundings
+    real light_beyond; // > 0 at an edge
+    real alone;        // > 0 if the pixel stands out from its surroundings
 };
 
-PT_CONSTANT real E_SQUARED = 7.39; // e^2: a pixel stands out if its ratio of squares exceeds this
+PT_CONSTANT real E_SQUARED = 7.39; // e^2. A pixel stands out if square / known exceeds this number.
 
-// If the darker part has a fraction f of the samples, standard_error / (mean - lesser) = sqrt(f / (1 - f)). For halves
-// this is 1, up to rounding.
+// If the darker part has the fraction f of the samples, standard_error / (mean - lesser) = sqrt(f / (1 - f)). For f =
+// 1/2 this is 1, up to rounding.
 PT_CONSTANT real OF_HALVES = 0.99;
 
-// offset_square bounds the relative errors of black pixels.
+// offset_square keeps the relative errors of black pixels finite.
 PT_FUNCTION Limit limit_of(real standard_error, real mean, real lesser, real around, real offset_square)
 {
     Limit limit;
@@ -109,9 +110,9 @@ PT_FUNCTION real square_as_lamp(real standard_error, real mean, real offset_squa
     return square_of_quotient(standard_error, squared(mean) + offset_square);
 }
 
-// A pixel that stands out shows a lamp or highlight, which many samples hit, or one rare bright sample. Light that only
-// one part hit may be either (met once). Other bright light was hit by both parts (met again).
-// lib/film/error_estimate.cpp compares the numbers of both kinds of pixels.
+// A pixel that stands out shows a lamp or highlight, which many samples hit, or one rare bright sample. If samples of
+// only one part hit the light ("met once"), both explanations remain. lib/film/error_estimate.cpp compares the number
+// of such pixels with the number where samples of both parts hit it ("met again").
 PT_FUNCTION bool is_met_once(real standard_error, real mean, real lesser)
 {
     return lesser <= 0.02 * mean && standard_error >= OF_HALVES * (mean - lesser);
@@ -122,14 +123,15 @@ PT_FUNCTION bool is_met_again(real mean, real lesser)
     return lesser >= 0.25 * mean;
 }
 
-// A neighbor's light M may fill a fraction p of this pixel that none of N samples hit, if the mean is below M / N. A
-// random edge cuts off a corner whose area is the square of its height. So the fraction is below p with probability c
-// sqrt(p). Let a^2 = (T^2 + offset) / M^2 and b = 1 / (N a). The squared error p M^2 / N has the relative expectation
+// The light M of a neighbor may fill a fraction p of this pixel that none of N samples hit, if the pixel's mean T is
+// below M / N. An edge that cuts off a corner of height x cuts off an area proportional to x^2. So p is below a given
+// value with a probability of c times its square root. Let a^2 = (T^2 + offset_square) / M^2 and b = 1 / (N a). The
+// squared error p M^2 / N has the relative expectation
 //
 // integral from 0 to 1 / N of c / (2 sqrt(p)) p / N / (a^2 + p^2) dp = c sqrt(b / N) G(sqrt(b)).
 //
-// G(t) is the integral of u^2 / (1 + u^4) from 0 to t. The approximation t^3 / (3 + 0.81 t^2 + 0.9 t^3) is at most a
-// seventh less. c = 0.055 is calibrated (shaders/README.md, section 11).
+// G(t) is the integral of u^2 / (1 + u^4) from 0 to t. The approximation t^3 / (3 + 0.81 t^2 + 0.9 t^3) is too small by
+// at most a seventh. c = 0.055 is calibrated (shaders/README.md, section 11).
 PT_FUNCTION real unseen_square(real mean, real largest_beside, real sample_count, real offset_square)
 {
     real brightest = largest_beside / sample_count;

@@ -1,5 +1,5 @@
-// Quotients of exact sums and counts, as the bits of float32. They are computed with integers, so they are equal
-// everywhere. Vulkan permits errors of float division and may flush small results to 0.
+// Quotients of exact sums and counts, as the bits of float32. They are computed with integers, because Vulkan permits
+// errors of float division and may flush small results to 0.
 #ifndef PT_QUOTIENT_H
 #define PT_QUOTIENT_H
 
@@ -33,7 +33,7 @@ struct LeadingBits {
     bool inexact;
 };
 
-// The upper word after a shift of both; bits < 32.
+// The upper word of two words shifted left; bits < 32.
 PT_FUNCTION uint shifted_left(uint upper, uint lower, int bits)
 {
     return upper << bits | (lower >> 1) >> (31 - bits);
@@ -73,12 +73,12 @@ PT_FUNCTION uint rounded(uint quotient, int exponent, bool inexact)
     uint rest = quotient & ((1u << dropped) - 1u);
     uint half_of_last = 1u << (dropped - 1);
     bool up = rest > half_of_last || (rest == half_of_last && (inexact || (kept & 1u) == 1u));
-    // The leading one increments the exponent, and so does a carry.
+    // The leading one of `kept` adds 1 to the exponent, and so does a carry.
     return (uint(float_exponent + 126) << 23) + kept + (up ? 1u : 0u);
 }
 
-// dividend 2^exponent / divisor, rounded once; divisor >= 1. Long division of numbers with top bits set: the quotient
-// is in (1/2, 2) and has 26 bits, of which the first may be 0.
+// Returns dividend 2^exponent / divisor, rounded once; divisor >= 1. This is a long division of numbers whose top bits
+// are set. The quotient is in (1/2, 2) and has 26 bits, of which the first may be 0.
 PT_FUNCTION uint quotient_bits(LeadingBits dividend, uint divisor, int exponent)
 {
     if (dividend.high == 0u)
@@ -103,7 +103,7 @@ PT_FUNCTION uint quotient_bits(LeadingBits dividend, uint divisor, int exponent)
                    dividend.inexact || (rest | next) != 0u);
 }
 
-// Bits of sum 2^exponent / count; 0 without samples.
+// Returns the bits of sum 2^exponent / count; 0 without samples.
 PT_FUNCTION uint mean_bits(uvec4 sum, uint count, int exponent)
 {
     return count == 0u ? 0u : quotient_bits(leading_bits(whole_number(sum)), count, exponent);
@@ -166,8 +166,8 @@ PT_FUNCTION WholeNumber weighted_difference(uvec4 sum_a, uint a, uvec4 sum_b, ui
 }
 
 // The divisor (a + b) sqrt(a b) of the standard error |A b - B a| / ((a + b) sqrt(a b)) (shaders/README.md, section
-// 11). The numerator is exact. Root and divisor are cut to 32 bits, with relative errors below 2^-31. So the result is
-// within .52 of its last place.
+// 11). The numerator is exact. Root and divisor are truncated to 32 bits, with relative errors below 2^-31. So the
+// error of the standard error is below 0.52 ulp.
 struct ErrorDivisor {
     uint divisor; // its top bit is set
     int exponent; // the value is divisor 2^exponent
@@ -175,7 +175,7 @@ struct ErrorDivisor {
 
 PT_FUNCTION ErrorDivisor error_divisor(uint a, uint b)
 {
-    // The root of a b 2^(2 shift), which has one of its top two bits set.
+    // Takes the root of a b 2^(2 shift). One of the top two bits of this number is set.
     uint square_high, square_low;
     umulExtended(a, b, square_high, square_low);
     int zeros = square_high != 0u ? 31 - findMSB(square_high) : 63 - findMSB(square_low);
@@ -196,7 +196,6 @@ PT_FUNCTION ErrorDivisor error_divisor(uint a, uint b)
     return result;
 }
 
-// Returns the bits of numerator 2^exponent / divisor.
 PT_FUNCTION uint standard_error_bits(WholeNumber numerator, ErrorDivisor divisor, int exponent)
 {
     return quotient_bits(leading_bits(numerator), divisor.divisor, exponent + divisor.exponent);

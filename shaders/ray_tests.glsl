@@ -6,8 +6,8 @@
 #include "scene.glsl"
 #include "tree.glsl"
 
-// With KNOWN_SIDES paths stay on the camera's side of each surface. Rounding may put a vertex on the wrong side of a
-// close surface, where paths would end or leak.
+// With KNOWN_SIDES paths stay on the camera's side of each surface. Without it a vertex that rounding puts on the wrong
+// side of a close surface would end the path or let it through the surface.
 
 struct Start {
     vec3 origin;
@@ -15,9 +15,9 @@ struct Start {
     bool inside;
 };
 
-// Distance along a unit vector to a plane, or NO_HIT: 2 |h| / q or q / k of shaders/README.md, section 3. `level`
-// belongs to the ray's origin, `side` is the camera's height. With KNOWN_SIDES a ray towards the plane always hits it.
-// The distance is negative if rounding has put the origin behind the plane.
+// Distance along a unit vector to a plane, or NO_HIT: 2 |h| / q or q / k of shaders/README.md, section 3. `level` is
+// for the ray's origin, `side` is the camera's height. With KNOWN_SIDES a ray towards the plane always hits it; the
+// distance is negative if rounding has put the origin behind the plane.
 float plane_distance(Level level, vec3 direction, bool leaving, bool inside, float side)
 {
     float slope = dot(level.gradient, direction);
@@ -54,7 +54,6 @@ void keep_closer(inout Hit hit, float distance, uint surface)
     hit.surface = closer ? surface : hit.surface;
 }
 
-// Any hit at a smaller distance blocks the lamp.
 struct ShadowRay {
     vec3 direction;
     float distance; // 0: no lamp
@@ -63,8 +62,9 @@ struct ShadowRay {
 
 const ShadowRay NO_SHADOW_RAY = ShadowRay(vec3(0.0), 0.0, NO_SURFACE);
 
-// How far a ray's start may be from another surface that coincides with its own. Rounding moves a vertex by at most
-// 2^-22 of its distance. The sticks of an atom are within 16 grid steps (lib/tree/coincident_spheres.h).
+// Largest distance of a ray's start from another surface that coincides with its own. Rounding moves a vertex by at
+// most 2^-22 of its distance. Coincident tree spheres are moved apart by up to 16 grid steps
+// (lib/tree/coincident_spheres.h).
 float rounding_of(Start start)
 {
     return 2.3841858e-7 * dot(abs(start.origin), vec3(1.0)) + (TREE_OPACITY == 1 ? 16.0 * tree_step() : 0.0);
@@ -88,7 +88,7 @@ float distance_to_plane(Start start, vec3 direction, uint plane, Level level, fl
     return plane_distance(level, direction, plane == start.surface, start.inside, camera_height(plane, time));
 }
 
-// At equal distances the first surface is seen.
+// At equal distances the surface with the lower index is visible.
 bool blocks(ShadowRay shadow, float distance, uint surface)
 {
     bool before = distance < shadow.distance || (CLOSE_LAMPS == 1 && distance == shadow.distance && surface < shadow.lamp);
@@ -113,9 +113,9 @@ void shade_plane(inout bool blocked, Start start, ShadowRay shadow, uint plane, 
     blocked = blocked || blocks(shadow, distance_to_plane(start, shadow.direction, plane, level, time), plane);
 }
 
-// A shadow ray to a lamp that nearly coincides with another sphere ends where an intersection test finds the lamp. One
-// formula then gives the distances of both spheres, so exactly one is less, and light that both emit counts once. If
-// the test misses by rounding, the ray ends at the sampled point.
+// If a lamp nearly coincides with another sphere, the shadow ray to it ends where an intersection test finds the lamp.
+// The distances to both spheres then come from one formula, so the spheres have one order, and light that both emit
+// counts once. If the test misses the lamp by rounding, the ray ends at the sampled point.
 ShadowRay ended_as_met(ShadowRay shadow, Start start, float time)
 {
     if (CLOSE_LAMPS == 1 && shadow.distance > 0.0 && is_walked_lamp(shadow.lamp)) {

@@ -1,4 +1,4 @@
-// Turns sums into an image. Each invocation has one pixel of a rectangle, which may extend beyond the strip.
+// Turns sums into an image. Each invocation has one pixel of a rectangle.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 

@@ -1,5 +1,5 @@
 // Writes pixels that are read back, in each format. Float16 is computed with integers, as on the host
-// (lib/film/pixel_format.h), because Vulkan leaves packHalf2x16's rounding and small numbers to the device.
+// (lib/film/pixel_format.h), because Vulkan does not fix how packHalf2x16 rounds and whether it flushes small numbers.
 #ifndef RESOLVED_GLSL
 #define RESOLVED_GLSL
 
@@ -8,7 +8,7 @@
 #include "gpu_layout.h"
 
 layout(set = 0, binding = BINDING_RESOLVED) writeonly buffer Resolved { uint words[]; } resolved;
-layout(set = 0, binding = BINDING_FINDINGS) buffer Findings { uint lost_pixels; } findings; // by the driver
+layout(set = 0, binding = BINDING_FINDINGS) buffer Findings { uint lost_pixels; } findings;
 
 const uint SIGN_BIT = 0x80000000u;
 const uint HALF_INFINITY_BITS = 0x7c00u;
@@ -41,7 +41,7 @@ uint words_of_pixel(uint format)
     return format == FORMAT_R32UI ? 1u : format == FORMAT_RGBA16F ? 2u : format == FORMAT_RGBA32F ? 4u : 3u;
 }
 
-// value has three floats' bits, or a whole number first.
+// value has the bits of three floats, or an integer in x.
 void write_pixel(uint first_word, uint format, uvec3 value)
 {
     if (format == FORMAT_R32UI) {

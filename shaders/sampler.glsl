@@ -6,8 +6,8 @@
 #include "maths.glsl"
 #include "scene.glsl"
 
-// The sequence's points in units of 2^-32, a row of blocks per sample. The buffer is uniform, because all invocations
-// read one block at a time.
+// The sequence's points in units of 2^-32. Each sample has a row of blocks. The buffer is uniform, because all
+// invocations read the same block at a time.
 layout(set = 0, binding = BINDING_POINTS) uniform Points { uvec4 blocks[POINT_BLOCKS]; } points;
 
 struct SampleKey {
@@ -20,8 +20,8 @@ struct SampleKey {
 
 uint blocks_of_sample() { return shared_blocks(CAMERA_BLOCKS, LAMP_COUNT, SPOT_COUNT); }
 
-// Branch b has the blocks of the sample with index B i + b. The seed changes where this index passes 2^32, so that
-// numbers do not repeat.
+// Branch b of B in sample i has the blocks of the sample with index B i + b. If this index exceeds 2^32, the seed
+// changes, so that numbers do not repeat.
 SampleKey branch_key(SampleKey key, uint branch)
 {
     uint high, low;
@@ -51,7 +51,7 @@ SampleKey key_of_pixel(uvec2 seed, uint pixel)
     return SampleKey(seed, pixel, 0u, 0u, pcg4d(uvec4(pixel, 0u, seed)));
 }
 
-// The shift of a block is the pixel's hash times this number (shaders/README.md, section 8).
+// The factor of the pixel's hash in the shift of a block (shaders/README.md, section 8).
 uint odd_number(uint block)
 {
     uint odd = block * 0x9e3779b9u + 0xc2b2ae35u;
@@ -65,8 +65,8 @@ bool all_in_table()
     return path_blocks(MAX_PATH_LENGTH, CAMERA_BLOCKS, LAMP_COUNT, SPOT_COUNT) <= TABLE_BLOCKS;
 }
 
-// Numbers in units of 2^-32. The exclusive or with a shift turns the table's Owen scrambling into another one. Halton
-// points are rotated modulo 1 (Cranley and Patterson 1976).
+// Returns numbers in units of 2^-32. The exclusive or with a shift turns the table's Owen scrambling into another one.
+// Halton points are rotated modulo 1 (Cranley and Patterson 1976).
 uvec4 sample_words(SampleKey key, uint block)
 {
     bool in_table = SAMPLER != SAMPLER_RANDOM && (all_in_table() || block < TABLE_BLOCKS);
@@ -77,7 +77,7 @@ uvec4 sample_words(SampleKey key, uint block)
     return SAMPLER == SAMPLER_SOBOL ? point ^ shift : SAMPLER == SAMPLER_HALTON_CP ? point + shift : point;
 }
 
-// Multiples of 2^-24, so that rounding never yields 1.
+// Returns multiples of 2^-24 below 1. A conversion of all 32 bits could round to 1.
 vec4 sample_block(SampleKey key, uint block) { return vec4(sample_words(key, block) >> 8u) * NUMBER_STEP; }
 
 #endif

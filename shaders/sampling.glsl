@@ -4,15 +4,14 @@
 
 #include "maths.glsl"
 
-// Angles about the z axis. The polar angle is given by cosine and sine, because Vulkan allows acos an error of 4096
-// ulp.
+// Angles about the z axis. The polar angle has its cosine and sine, because Vulkan allows acos an error of 4096 ulp.
 struct SphericalAngles {
     float cos_polar;
     float sin_polar;
     float azimuth; // turns, [0, 1)
 };
 
-// Density 1 / (4 pi) on the sphere. sqrt(1 - cos^2) would cancel at the poles.
+// Density 1 / (4 pi) on the sphere. sqrt(1 - cos^2) would suffer from cancellation at the poles.
 SphericalAngles uniform_spherical_angles(vec2 u)
 {
     return SphericalAngles(1.0 - 2.0 * u.x, 2.0 * sqrt(u.x * (1.0 - u.x)), u.y);
@@ -46,8 +45,8 @@ vec2 concentric_disc(vec2 u)
     return radius * sign(place) * (along_x ? vec2(cosine, sine) : vec2(sine, cosine));
 }
 
-// Turns v so that the z axis becomes the unit vector axis (Duff et al., "Building an Orthonormal Basis, Revisited",
-// JCGT 6(1), 2017).
+// Rotates v by the rotation that takes the z axis to the unit vector `axis` (Duff et al., "Building an Orthonormal
+// Basis, Revisited", JCGT 6(1), 2017).
 vec3 rotate_to_axis(vec3 axis, vec3 v)
 {
     float s = axis.z < 0.0 ? -1.0 : 1.0;
@@ -61,20 +60,20 @@ vec3 direction_about(vec3 axis, vec2 cos_sin_polar, float azimuth)
     return rotate_to_axis(axis, spherical_direction(SphericalAngles(cos_sin_polar.x, cos_sin_polar.y, azimuth)));
 }
 
-// Cosine and sine for density cos(theta) / pi (Malley). sqrt(1 - x^2 - y^2) would cancel near the horizon.
+// Samples the polar angle with density cos(theta) / pi (Malley). Returns its cosine and sine. sqrt(1 - x^2 - y^2) would
+// suffer from cancellation near the horizon.
 vec2 cosine_hemisphere_cos_sin(float u)
 {
     return vec2(sqrt(1.0 - u), sqrt(u));
 }
 
-// With h = 1 - cos the sine is sqrt(h (2 - h)), which does not cancel in narrow cones.
+// Cosine and sine from h = 1 - cos. sqrt(h (2 - h)) is precise in narrow cones.
 vec2 narrow_cos_sin(float one_minus_cos)
 {
     return vec2(1.0 - one_minus_cos, sqrt(one_minus_cos * (2.0 - one_minus_cos)));
 }
 
-// Weight of density a > 0 against b >= 0, with exponent 2 (Veach 1997, chapter 9). The square overflows only where the
-// weight is 0.
+// Weight of density a > 0 against b >= 0, with exponent 2 (Veach 1997, chapter 9). After overflow it is 0.
 float power_heuristic(float a, float b)
 {
     float ratio = b / a;

@@ -1,4 +1,3 @@
-// Access to the scene buffer of gpu_layout.h.
 #ifndef SCENE_GLSL
 #define SCENE_GLSL
 
@@ -16,7 +15,7 @@ layout(set = 0, binding = BINDING_SCENE_STORAGE) readonly buffer SceneStorage { 
 
 const uint SURFACE_COUNT = SPHERE_COUNT + PLANE_COUNT;
 
-// Runs a statement for each index from first to end - 1. Short loops are unrolled (DevicePolicy::unrolled).
+// Runs a statement for each index from first to end - 1. Loops of up to UNROLLED trips are unrolled.
 #define FOR_EACH(index, first, end, statement)                                                                         \
     if ((end) > (first)) {                                                                                             \
         uint index = (first);                                                                                          \
@@ -39,7 +38,7 @@ vec4 stored_word(uint index)
     return UNIFORM_READS == 1u ? scene_uniform.words[index] : scene_storage.words[index];
 }
 
-// `index` is constant once loops are unrolled.
+// `index` must be constant after loops are unrolled.
 vec4 scene_word(uint index)
 {
     if (SCENE_SOURCE == SCENE_IN_CONSTANTS)
@@ -47,8 +46,9 @@ vec4 scene_word(uint index)
     return SCENE_SOURCE == SCENE_IN_UNIFORM ? scene_uniform.words[index] : stored_word(index);
 }
 
-// Word first + index, where index < count may differ between invocations. Constants have no addresses, so all are
-// compared. A branch that is never taken prevents constant folding, so that all scene sources round alike.
+// Word first + index; index < count may differ between invocations. Constants have no addresses, so index is compared
+// with all possible values. A condition that is never true prevents constant folding, so that all scene sources round
+// alike.
 vec4 scene_word_among(uint first, uint count, uint index)
 {
     if (SCENE_SOURCE != SCENE_IN_CONSTANTS)
@@ -64,7 +64,7 @@ vec4 scene_word_among(uint first, uint count, uint index)
     return word;
 }
 
-// Whether surfaces share material words, which is slower in small scenes.
+// Whether surfaces of one material share its words, which is slower in small scenes.
 const bool HAS_TABLE = SCENE_SOURCE == SCENE_IN_STORAGE;
 
 // First words of the blocks.
@@ -75,7 +75,7 @@ const uint SPECULAR = 3u * SURFACE_COUNT;
 const uint MOTIONS = HAS_TABLE ? EMISSION + EMITTING_SPHERES + PLANES_EMIT * PLANE_COUNT : (3u + GLOSS) * SURFACE_COUNT;
 const uint CURVATURES = MOTIONS + (HAS_WAYS ? SPHERE_COUNT : 0u);
 const uint LAMP_TREE = CURVATURES + CURVATURE * PLANE_COUNT;
-// SPOTS is only in the uniform buffer, the blocks below only in the storage buffer.
+// The uniform buffer has SPOTS here; the storage buffer has the blocks from INDICES on.
 const uint SPOTS = LAMP_TREE + LAMP_TREE_WORDS;
 const uint INDICES = LAMP_TREE + LAMP_TREE_WORDS;
 const uint TREE_FRAME = INDICES + (SURFACE_COUNT + 3u) / 4u;
@@ -88,14 +88,14 @@ uint stored_index(uint block, uint index)
     return floatBitsToUint(stored_word(block + index / 4u)[index % 4u]) - MATERIAL_INDEX_BITS;
 }
 
-// First word of a surface's material, in the storage buffer.
+// First word of a surface's material in the storage buffer.
 uint material_words(uint surface)
 {
     bool in_tree = TREE == 1u && surface >= SURFACE_COUNT;
     return TABLE + (1u + GLOSS) * (in_tree ? tree_material(surface - SURFACE_COUNT) : stored_index(INDICES, surface));
 }
 
-// Lamps outside the tree come first, with the same numbers as surfaces.
+// Lamps outside the tree have lamp numbers equal to their surface numbers. Lamps in the tree follow.
 const uint WALKED_LAMPS = LAMP_COUNT - TREE_LAMPS;
 
 // Returns the lamp's number. For other surfaces it is LAMP_COUNT or greater.
@@ -121,7 +121,6 @@ bool may_emit(uint surface)
     return surface < WALKED_LAMPS + SKY_COUNT || (PLANES_EMIT == 1u && is_plane) || is_lamp;
 }
 
-// rgb is the radiance, a the mean of its channels.
 vec4 emission_of(uint surface)
 {
     if (!HAS_TABLE)
@@ -134,7 +133,6 @@ vec4 emission_of(uint surface)
 
 vec4 emission_of_lamp(uint lamp) { return scene_word_among(EMISSION, LAMP_COUNT, lamp); }
 
-// rgb is albedo / pi, a the probability of choosing the specular lobe.
 vec4 diffuse_of(uint surface)
 {
     if (TREE_COLORS == 1u && surface >= SURFACE_COUNT) {
@@ -144,7 +142,6 @@ vec4 diffuse_of(uint surface)
     return HAS_TABLE ? scene_word(material_words(surface)) : scene_word_among(DIFFUSE, SURFACE_COUNT, surface);
 }
 
-// rgb is the factor times (n + 2) / (2 pi), a the glossiness n.
 vec4 specular_of(uint surface)
 {
     if (GLOSS == 0)
@@ -152,7 +149,7 @@ vec4 specular_of(uint surface)
     return HAS_TABLE ? scene_word(material_words(surface) + 1u) : scene_word_among(SPECULAR, SURFACE_COUNT, surface);
 }
 
-// The sphere at a time in [0, 1]. `sphere` is the index of a loop.
+// The sphere at a time in [0, 1]. `sphere` must be constant after loops are unrolled.
 Ball ball_at(uint sphere, float time)
 {
     return ball_from(scene_word(sphere), HAS_WAYS ? scene_word(MOTIONS + sphere) : vec4(0.0), time, KINDS);
@@ -187,13 +184,13 @@ vec4 sphere_of_lamp(uint lamp, float time)
 bool is_walked_lamp(uint surface) { return TREE_LAMPS == 0u || surface < WALKED_LAMPS; }
 
 struct Level {
-    float height;  // positive on the normal's side
-    vec3 gradient; // of the height; on the plane it is the normal
+    float height;  // signed distance from the plane, positive on the normal's side
+    vec3 gradient; // gradient of the height
     float curvature;
 };
 
-// A sphere far larger than its distance is held as a plane with a curvature (shaders/README.md, section 3). Returns the
-// height h(x) of that section and its gradient. Motion by m replaces x by x - t m.
+// A sphere far larger than its distance is stored as a plane with a curvature (shaders/README.md, section 3). Returns
+// the h(x) of that section and its gradient. Motion by m replaces x by x - t m.
 Level level_of(vec4 normal_offset, vec4 curvature_motion, vec3 point, float time)
 {
     vec4 n = normal_offset;

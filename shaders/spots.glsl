@@ -1,5 +1,5 @@
-// Spots are small and far brighter than their surroundings (README.md, section 7). A glow is where a lamp is close to a
-// plane. An image is where a polished surface mirrors a lamp. lib/kernel/light_spots.h finds spots.
+// Spots are small regions that are far brighter than their surroundings (README.md, section 7). A glow is a region of a
+// plane close to a lamp. An image is a lamp's mirror image in a polished surface. lib/kernel/light_spots.h finds spots.
 #ifndef SPOTS_GLSL
 #define SPOTS_GLSL
 
@@ -10,7 +10,7 @@ struct SpotWord {
     uint lamp;
     uint surface;
     float reflectance; // mean over channels
-    float glossiness;  // of the mirroring surface; negative: a glow
+    float glossiness;  // glossiness of the mirroring surface; negative: a glow
 };
 
 SpotWord spot_word(uint spot)
@@ -36,7 +36,7 @@ struct Spots {
     float total_weight;
 };
 
-// Possible irradiance, lowered if directions find it anyway. The factor is empirical.
+// The weight is lower if directions of the material find the spot anyway. The factor 10 is empirical.
 float spot_weight(float irradiance, float found_anyway)
 {
     return irradiance / (1.0 + 10.0 * found_anyway);
@@ -57,7 +57,6 @@ Spot view_glow(Vertex vertex, vec4 lamp, float radiance, SpotWord word)
     return Spot(vec4(lamp.xyz, squared_height), seen ? spot_weight(irradiance, squared_height * form) : 0.0);
 }
 
-// The point of a surface that mirrors a lamp.
 struct MirrorPoint {
     vec3 position;
     vec3 normal;
@@ -76,9 +75,9 @@ MirrorPoint mirror_point_of_plane(Vertex vertex, vec4 lamp, uint surface)
     return MirrorPoint(position, height > 0.0 ? plane.xyz : -plane.xyz, 0.0, height * lamp_height > 0.0);
 }
 
-// Alhazen's problem: the normal bisects the angle between the directions to the vertex and the lamp. The iteration
-// starts from a normal that is right for far points (the bisector) and near ones (the ratio of heights). Its error
-// costs variance, not bias.
+// Alhazen's problem: find the normal that bisects the angle between the directions to the vertex and to the lamp. The
+// iteration starts from a normal that is correct if vertex and lamp are both far from the sphere (the bisector) or both
+// near (by the ratio of heights). Its error raises the variance but causes no bias.
 MirrorPoint mirror_point_of_sphere(Vertex vertex, vec4 lamp, uint surface, float time)
 {
     vec4 sphere = ball_of(surface, time).centre_radius;
@@ -102,7 +101,7 @@ MirrorPoint mirror_point_of_sphere(Vertex vertex, vec4 lamp, uint surface, float
     return MirrorPoint(sphere.xyz + radius * normal, normal, 1.0 / radius, exists);
 }
 
-// In narrower lobes the rounding of directions would show.
+// In narrower lobes the rounding of directions would be visible.
 const float LARGEST_SPOT_EXPONENT = 1e6;
 
 Spot view_image(Vertex vertex, vec4 lamp, float radiance, SpotWord word, float time)
@@ -149,7 +148,7 @@ Spots spots_from(Vertex vertex, float time)
     return spots;
 }
 
-// The last spot of positive weight for which the sum over earlier spots does not exceed the number.
+// Returns the last spot of positive weight for which the sum over earlier spots is at most number * total_weight.
 uint choose_spot(Spots spots, float number)
 {
     float target = number * spots.total_weight;
@@ -165,8 +164,8 @@ uint choose_spot(Spots spots, float number)
     return chosen;
 }
 
-// A direction to an image follows a lobe about it. A ray of cosine density leads from a glow's lamp to a point of the
-// plane, and the direction to the glow leads to that point.
+// For an image, samples a lobe about its direction. For a glow, a ray of cosine density from the lamp chooses a point
+// of the plane. The result is the direction to this point.
 vec3 direction_to_spot(Spots spots, uint spot, vec3 position, float time, vec2 place)
 {
     SpotWord word = spot_word(spot);
@@ -190,7 +189,7 @@ vec3 direction_to_spot(Spots spots, uint spot, vec3 position, float time, vec2 p
     return direction;
 }
 
-// Density over solid angle, summed over the spots of the surface that the ray hit.
+// Density of direction_to_spot() over solid angle. Only spots of the surface that the ray hit contribute.
 float spot_density(Spots spots, Arrival arrival, float distance, float time)
 {
     float density = 0.0;

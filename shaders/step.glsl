@@ -1,4 +1,4 @@
-// A path's step from one vertex to the next, with the light that it finds.
+// A path's step from one vertex to the next, and the light that it adds.
 #ifndef STEP_GLSL
 #define STEP_GLSL
 
@@ -22,14 +22,13 @@ struct Path {
 };
 
 // State of the current path, for scenes with spots only.
-float arrival_density; // density of the last direction, times the number of directions
-float departure_share; // weight of the light that the next departure finds; a spot's ray finds the rest
+float arrival_density; // density of the last direction times the number of directions
+float departure_share; // weight of the lamp light at the next departure, against light_by_way_of_spot()
 
 Path path_from(Arrival first) { return Path(first, vec3(1.0), vec3(0.0), 1u, true); }
 
-// Weights of the light that lamp samples and directions find, by multiple importance sampling. With ESTIMATOR_LIGHT
-// lamp samples have all the weight. Densities are multiplied by the vertex's number of samples (Veach 1997, section
-// 9.2.2).
+// Weights of lamp samples and directions, by multiple importance sampling. With ESTIMATOR_LIGHT lamp samples have
+// weight 1. Densities are multiplied by the vertex's number of samples (Veach 1997, section 9.2.2).
 float lamp_weight_over_density(float lamp_density, float direction_density)
 {
     return ESTIMATOR == ESTIMATOR_LIGHT ? 1.0 / lamp_density
@@ -51,7 +50,7 @@ struct LampLight {
 
 const LampLight NO_LAMP_LIGHT = LampLight(NO_SHADOW_RAY, vec3(0.0), 0.0);
 
-// samples is the number of this lamp's samples, directions the number of directions from the vertex.
+// samples is the number of samples of this lamp, directions the number of directions from the vertex.
 LampLight light_of_lamp(vec3 throughput, Vertex vertex, Material material, LampChoice choice, vec2 place,
                         float samples, float directions)
 {
@@ -63,7 +62,8 @@ LampLight light_of_lamp(vec3 throughput, Vertex vertex, Material material, LampC
     return LampLight(found.shadow, light, density > 0.0 ? towards.cosine * weight : 0.0);
 }
 
-// Expected samples of the lamp. choices is the number of lamps that the vertex chooses; 0: it samples every lamp once.
+// Expected number of samples of the lamp. choices is the number of lamps that the vertex chooses; 0: it samples every
+// lamp once.
 float lamp_samples(LampChoice choice, float choices)
 {
     return choices > 0.0 ? choice.probability * choices : 1.0;
@@ -77,7 +77,7 @@ LampLight light_of_chosen_lamp(vec3 throughput, Vertex vertex, Material material
     return light_of_lamp(throughput, vertex, material, choice, numbers.place, samples, directions);
 }
 
-// Stratified over branches. The sum may round up to 1.
+// Stratifies the number over branches. The quotient may round up to 1.
 float lobe_number(float number, uint branch, float directions)
 {
     return at_most((number + float(branch)) / directions, LARGEST_NUMBER);
@@ -86,7 +86,7 @@ float lobe_number(float number, uint branch, float directions)
 struct Departure {
     vec3 origin;
     vec3 direction;
-    float density;   // over solid angle, times the number of directions
+    float density;   // density over solid angle times the number of directions
     float strongest; // largest component of the throughput
     bool carries_light;
     float survival; // random number for Russian roulette
@@ -94,7 +94,7 @@ struct Departure {
     float lamp_choices; // 0: every lamp is sampled
 };
 
-// The caller chooses lamp and numbers. A branch here would be slower on GPUs.
+// The caller chooses the lamp, because a branch here would be slower on GPUs.
 Departure depart(inout Path path, Vertex vertex, Material material, LampLight lamp, float lamp_choices, vec4 numbers,
                  float directions)
 {
@@ -105,7 +105,7 @@ Departure depart(inout Path path, Vertex vertex, Material material, LampLight la
     departure.density = onwards.density * directions;
     path.throughput *= onwards.f * (departure.density > 0.0 ? onwards.cosine / departure.density : 0.0);
     departure.strongest = strongest_of(path.throughput);
-    departure.carries_light = !(departure.strongest <= 0.0); // NaN goes on, so that the film rejects it
+    departure.carries_light = !(departure.strongest <= 0.0); // also true for NaN, so that the film rejects it
     departure.survival = numbers.w;
     departure.lamp = lamp;
     departure.lamp_choices = lamp_choices;
@@ -120,7 +120,7 @@ void arrive(inout Path path, Departure departure, Lamps lamps, Hit hit, bool blo
         lamp_weight *= departure_share;
     path.radiance += departure.lamp.light * (blocked ? 0.0 : lamp_weight);
 
-    // Emission is weighted against lamp sampling, if that can find it.
+    // Emission of lamps is weighted against lamp sampling.
     path.alive = hit.surface != NO_SURFACE && departure.carries_light;
     if (path.alive && may_emit(hit.surface)) {
         float weight = 1.0;
@@ -141,7 +141,7 @@ void arrive(inout Path path, Departure departure, Lamps lamps, Hit hit, bool blo
     path.arrival = Arrival(departure.origin + hit.distance * departure.direction, departure.direction, hit.surface);
     ++path.vertex_count;
 
-    // Russian roulette from the fourth vertex on, relative to a branch's initial throughput. The least survival bounds
+    // Russian roulette from the fourth vertex on, relative to a branch's initial throughput. The minimum 0.05 bounds
     // the weights.
     if (ROULETTE && path.vertex_count >= 4u) {
         float survival = at_most(at_least(departure.strongest * float(BRANCH_COUNT), 0.05), 1.0);
@@ -150,8 +150,8 @@ void arrive(inout Path path, Departure departure, Lamps lamps, Hit hit, bool blo
     }
 }
 
-// Whether a direction may hit an emitting surface. hit is the closest one outside the tree. A path's last direction
-// finds only emission, so these tests may save a walk.
+// Whether a direction may hit an emitting surface. hit is the closest hit outside the tree. A path's last direction
+// adds only emission, so this test may save a walk.
 bool may_meet_light(Start start, vec3 direction, Hit hit, float time)
 {
     const uint few_lamps = 16u;
@@ -204,7 +204,7 @@ void leave(inout Path path, Vertex vertex, Material material, LampLight lamp, La
     arrive(path, departure, lamps, ahead(walk.hit), walk.blocked);
 }
 
-// Under skies and with emitting planes the last direction is like others, because it alone finds their light.
+// With skies or emitting planes the last direction is like others, because lamp samples do not find their light.
 Material material_to_leave(uint surface, uint vertex_count)
 {
     Material material = material_of(surface);
@@ -212,8 +212,8 @@ Material material_to_leave(uint surface, uint vertex_count)
     return SAMPLE_LAMPS && SKY_COUNT + PLANES_EMIT == 0u && last ? at_last_direction(material) : material;
 }
 
-// Moves the path on from a vertex beyond the first. as_vertex is the path length that the material assumes, begin the
-// vertex's first block.
+// Extends the path from a vertex beyond the first. begin is the vertex's first block. material_to_leave() gets the path
+// length as_vertex.
 void extend(inout Path path, SampleKey key, uint begin, uint as_vertex, float time)
 {
     Vertex vertex = vertex_at(path.arrival, time);

@@ -1,4 +1,4 @@
-// The pixel of an invocation. Each workgroup has a tile from a list.
+// The pixel of an invocation. Each workgroup has one tile of the list.
 #ifndef TILE_PIXEL_GLSL
 #define TILE_PIXEL_GLSL
 
@@ -10,8 +10,8 @@ struct TilePixel {
     bool exists; // false beyond the edges of image and strip
 };
 
-// Pixels follow Morton's curve (1966), so that invocations that run in step have similar tree walks. Pixels before the
-// strip wrap to huge indices and fail the test.
+// Pixels follow Morton's curve (1966), so that invocations of one subgroup have similar tree walks. The index of a
+// pixel before the strip wraps to a huge number and fails the test.
 TilePixel tile_pixel()
 {
     uint corner = tiles.first_pixels[frame.first_entry + gl_WorkGroupID.x];

@@ -24,7 +24,6 @@ uint tree_first_color() { return scene_bits.words[TREE_FRAME + 3u].z; }
 uint tree_first_lamp() { return scene_bits.words[TREE_FRAME + 3u].w; }
 float tree_shutter_time() { return scene_storage.words[TREE_FRAME + 4u].x; }
 
-// Grid coordinates of the center; radius bits.
 uvec4 tree_sphere_word(uint place) { return tree_word(place); }
 
 // The ball relative to the grid point `base`, moved by `rest` steps.
@@ -48,7 +47,7 @@ uint tree_surface(uint place)
     return tree_word(tree_first_surface() + place / 4u)[place % 4u];
 }
 
-// The lamp's number in the tree, or at least TREE_LAMPS for other spheres.
+// Returns the lamp's number in the tree. For other spheres it is TREE_LAMPS or greater.
 uint tree_lamp(uint place)
 {
     uint word = tree_surface(place);

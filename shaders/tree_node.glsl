@@ -1,20 +1,21 @@
-// The nodes of the tree, and their children that a ray enters.
+// Tests the boxes of a tree node's children.
 #ifndef TREE_NODE_GLSL
 #define TREE_NODE_GLSL
 
 #include "scene.glsl"
 
-// A ray on the grid. Differences from grid points are exact, so rays are precise near spheres, wherever the camera is.
+// A ray on the grid. Differences of grid points are exact, so the rays are precise near spheres, wherever the camera
+// is.
 struct GridRay {
     ivec3 base;    // grid point next to the start
     vec3 rest;     // vector from base to the start, in steps
     float advance; // distance from the origin to the start
-    float margin;  // by which boxes are enlarged, in steps
+    float margin;  // enlargement of boxes, in steps
     bool is_near;
 };
 
-// Rays from far away start at a ball about the grid, so that the start's rounding is the same for all spheres. Boxes
-// are enlarged by four times the rounding of a hit (shaders/README.md, section 3).
+// Rays from far away are advanced to a ball about the grid, so that the rounding of their start is the same for all
+// spheres. Boxes are enlarged by four times the rounding of a hit (shaders/README.md, section 3).
 GridRay grid_ray(vec3 origin, vec3 direction)
 {
     const float reach = float(TREE_REACH);
@@ -25,7 +26,7 @@ GridRay grid_ray(vec3 origin, vec3 direction)
     vec3 to_middle = tree_middle() - origin;
     vec3 far = abs(to_middle);
     if (max(far.x, max(far.y, far.z)) > 2.0 * reach * tree_step()) {
-        float radius = 1.75 * reach * tree_step(); // above sqrt(3) reach
+        float radius = 1.75 * reach * tree_step(); // more than sqrt(3) reach
         float b = dot(to_middle, direction);
         vec3 across = to_middle - b * direction;
         ray.is_near = b > 0.0 && dot(across, across) < radius * radius;
@@ -52,8 +53,9 @@ vec3 inverse_of(vec3 direction)
 
 const uint NO_NODE = ~0u;
 
-// Up to three children still to be entered, nearest first. The low bits are three fields of two bits, in which the last
-// child is repeated. The bits above are the number of the first child, never 0.
+// A group has up to three children that are still to be entered, nearest first. The low six bits are three fields with
+// the children's offsets; unused fields repeat the last child. The bits above are the node number of the first child,
+// never 0.
 uint next_of(uint group) { return (group >> 6) + (group & 3u); }
 bool has_one(uint group) { return ((group ^ (group >> 2)) & 3u) == 0u; }
 uint without_next(uint group) { return (group & ~15u) | ((group >> 2) & 15u); }

@@ -1,6 +1,6 @@
-// Paths among tree spheres, by short steps. Invocations that run in step wait for the longest walk. So all walks take
-// some trips, then finished ones go on with their path, branch or sample (Aila and Laine, "Understanding the Efficiency
-// of Ray Traversal on GPUs", HPG 2009, section 3.3). Results equal path.glsl's.
+// Paths among tree spheres, in short steps. Invocations of a subgroup would wait for the longest walk. So all walks
+// take some trips; then finished ones continue with their next ray, branch or sample (Aila and Laine, "Understanding
+// the Efficiency of Ray Traversal on GPUs", HPG 2009, section 3.3). path.glsl gives the same results.
 #ifndef TREE_PATH_GLSL
 #define TREE_PATH_GLSL
 
@@ -16,7 +16,7 @@ struct TreeSample {
     Path path;
 };
 
-// Departures beyond the branches find only the light of their lamp. They come first.
+// Departures beyond the branches come first. They have only a shadow ray to their lamp.
 const uint FIRST_DEPARTURES = SAMPLE_EVERY_LAMP && LAMP_COUNT > BRANCH_COUNT ? LAMP_COUNT : BRANCH_COUNT;
 const uint FIRST_BRANCH = FIRST_DEPARTURES > BRANCH_COUNT ? BRANCH_COUNT : 0u;
 

@@ -1,19 +1,20 @@
-// Intersects rays with tree spheres. The hit is the same as if all spheres were tested (shaders/README.md, section 3).
+// Intersects rays with tree spheres. The hit has the same bits as if all spheres were tested (shaders/README.md,
+// section 3).
 #ifndef TREE_WALK_GLSL
 #define TREE_WALK_GLSL
 
 #include "ray_tests.glsl"
 #include "tree_node.glsl"
 
-// An advance rounded by 2^-24 may make a farther sphere tie with a nearer one. So boxes are entered up to 2^-22 of the
-// advance beyond the hit.
+// GridRay.advance is rounded by 2^-24, so a farther sphere may get the same distance as a nearer one. To find both,
+// boxes are entered up to 2^-22 of the advance beyond the hit.
 const float ADVANCE_ROUNDED = 0.99999976; // 1 - 2^-22
 
 // The word of surfaces outside the tree, which sorts before every tree sphere.
 const uvec4 NO_SPHERE_WORD = uvec4(0u, 0u, 0u, ~0u);
 
-// Order at equal distances, independent of the tree's shape. Of concentric spheres the larger goes first. The slot
-// decides only between spheres that differ by motion; such trees have no fixed shape (sphere_tree.h).
+// Order at equal distances, independent of the tree's shape. The larger of two concentric spheres goes first. Slots are
+// compared only if the spheres differ in nothing but motion.
 bool goes_before(uvec4 word, uint surface, uvec4 other_word, uint other_surface)
 {
     return word.x != other_word.x   ? word.x < other_word.x
@@ -32,7 +33,7 @@ void keep_closer_of_tree(inout Hit hit, inout uvec4 hit_word, float distance, ui
     hit_word = closer ? word : hit_word;
 }
 
-// Distance or NO_HIT. ball is relative to the ray's start.
+// ball is relative to the ray's start.
 float distance_in_tree(Start start, GridRay ray, vec3 direction, uint surface, Ball ball, float time)
 {
     bool leaving = surface == start.surface;
@@ -46,7 +47,7 @@ float distance_in_tree(Start start, GridRay ray, vec3 direction, uint surface, B
            ball_distance(ball, to_first, from_side, direction, leaving, start.inside, rounding_of(start), TREE_KINDS);
 }
 
-// A lamp outside the tree sorts before tree spheres.
+// At equal distances a lamp outside the tree goes before tree spheres.
 bool blocks_in_tree(Start start, GridRay ray, ShadowRay shadow, vec3 direction, float distance, uint surface,
                     uvec4 word, Ball ball)
 {
@@ -72,8 +73,8 @@ ShadowRay ended_as_met_in_tree(ShadowRay shadow, Start start, float time)
     return shadow;
 }
 
-// A walk follows the vertex's shadow ray, if any, and then the path's ray. An invocation whose shadow ray ends early
-// turns to its path's ray at once.
+// A walk traces the vertex's shadow ray, if there is one, and then the path's ray. It changes to the path's ray as soon
+// as the shadow ray is blocked.
 struct Walk {
     Start start;
     vec3 direction;
@@ -88,30 +89,29 @@ struct Walk {
     vec3 path_inverse;
     vec3 shadow_inverse;
     bool follows_path;
-    bool seeks_light; // only emission counts: without lamps in the tree any tree sphere ends the ray
+    bool seeks_light; // the ray finds only emission, so without lamps in the tree any tree sphere ends it
     bool in_shadow;
     uint node;
-    uint first_place; // slot of the last node's child spheres; `spheres` marks those to be tested
+    uint first_place; // slot of the last node's first child sphere
     uint spheres;
     int height; // stack height, or ENDED
     bool done;
 };
 
-// Whether all invocations execute all branches, as on lavapipe.
+// On lavapipe all invocations execute all branches of the code.
 const bool IN_STEP = WALK_TRIPS == 0u;
 
-// Groups to be entered. Functions copy arguments, so the stack is outside Walk. With IN_STEP it is in registers, last
-// group first, because lavapipe accesses arrays one invocation at a time.
+// Groups to be entered. The stack is outside Walk, because functions copy arguments. With IN_STEP all accesses have
+// constant indices, with the last group at 0, because lavapipe handles other accesses one invocation at a time.
 const uint STACK_SIZE = TREE_LEVELS > 0u ? TREE_LEVELS : 1u;
 uint walk_stack[STACK_SIZE];
 
-// The loop in go_on() ends with `done`. A driver may cut the loop, and compilers still assume `done` after it. Only the
-// height shows the cut.
+// Value of Walk.height after a complete walk. A driver may end the loop in go_on() early, but compilers assume that
+// `done` is true after it. Only the height shows that the walk is incomplete.
 const int ENDED = -1;
 
 const uint ROOT = 0u;
 
-// hit and blocked are results for surfaces outside the tree.
 Walk walk_from(Start start, vec3 direction, bool is_followed, ShadowRay shadow, float time, uint opacity_number,
                Hit hit, bool blocked)
 {
@@ -142,7 +142,6 @@ Walk walk_from(Start start, vec3 direction, bool is_followed, ShadowRay shadow, 
     return walk;
 }
 
-// Pushes a group or takes a node from the top group.
 void keep_or_take(inout Walk walk, bool keeps, uint group)
 {
     uint last = walk_stack[0];
@@ -184,7 +183,6 @@ GridRay ray_of(Walk walk, bool in_shadow)
     return ray;
 }
 
-// Finds the children that the ray enters before the nearest hit so far.
 Entered enter(Walk walk, NodeWords words, GridRay ray, bool in_shadow)
 {
     vec3 inverse = in_shadow ? walk.shadow_inverse : walk.path_inverse;
@@ -201,9 +199,9 @@ uint next_place(inout Walk walk)
 
 bool is_in_tree(uint surface) { return surface >= SURFACE_COUNT && surface != NO_SURFACE; }
 
-// An odd hash of a sphere's word. The radius is in grid steps, so the hash does not depend on the scene's scale. Words
-// differ (lib/tree/coincident_spheres.h). The hash ends like lowbias32 (Wellons, "Prospecting for hash functions",
-// 2018), where each input bit flips half of the output.
+// Returns an odd hash of a sphere's word. Translucent spheres have different words (lib/tree/coincident_spheres.h). The
+// radius is in grid steps, so the hash does not depend on the scene's scale. The hash ends like lowbias32 (Wellons,
+// "Prospecting for hash functions", 2018).
 uint opacity_generator(uvec4 word, uint opacity_number)
 {
     uint change = (opacity_number & TREE_OPACITY_BITS) << 1u;
@@ -215,8 +213,8 @@ uint opacity_generator(uvec4 word, uint opacity_number)
     return hash ^ (hash >> 16u) | 1u;
 }
 
-// Whether a ray passes a sphere, at random (Enderton et al. 2010, "Stochastic transparency"). Only the sphere and
-// opacity_number decide, so neither the order of tests nor the split of samples matters.
+// Whether a ray passes a sphere, at random (Enderton et al. 2010, "Stochastic transparency"). The result depends only
+// on the sphere and opacity_number, not on the order of tests.
 bool passes(uvec4 word, uint opacity_number)
 {
     if (TREE_OPACITY == 0)
@@ -240,8 +238,8 @@ void test_sphere(inout Walk walk, bool exists, uint place, uvec4 word, GridRay r
     keep_closer_of_tree(walk.hit, walk.hit_word, meets && !in_shadow ? distance : NO_HIT, surface, word);
 }
 
-// Enters at most one node and tests at most one sphere. The sphere is of an earlier node, so that neither waits for the
-// other. lavapipe 22.3 spills registers around each fetch, so both are fetched together.
+// Enters at most one node and tests at most one sphere of an earlier node. Both are fetched together, because lavapipe
+// 22.3 spills registers around each fetch.
 void trip_in_step(inout Walk walk, bool in_shadow)
 {
     bool tests = walk.spheres != 0u;
@@ -258,7 +256,7 @@ void trip_in_step(inout Walk walk, bool in_shadow)
     test_sphere(walk, tests, place, word, ray, in_shadow);
 }
 
-// On GPUs it is slower to take the next node before the sphere's test.
+// The next node is taken after the sphere's test, which is faster on GPUs.
 void trip(inout Walk walk, bool in_shadow)
 {
     GridRay ray = ray_of(walk, in_shadow);
@@ -278,7 +276,7 @@ void trip(inout Walk walk, bool in_shadow)
         take(walk);
 }
 
-// Continues until the walk is done or, without IN_STEP, for most_trips.
+// Continues until the walk is done or, without IN_STEP, for at most most_trips.
 void go_on(inout Walk walk, uint most_trips, bool has_shadow)
 {
     uint trips = 0u;
@@ -289,7 +287,6 @@ void go_on(inout Walk walk, uint most_trips, bool has_shadow)
         else
             trip(walk, in_shadow);
 
-        // Turns to the path's ray.
         bool ray_ends = walk.spheres == 0u && walk.node == NO_NODE;
         if (in_shadow)
             ray_ends = ray_ends || walk.blocked;
@@ -306,7 +303,7 @@ void go_on(inout Walk walk, uint most_trips, bool has_shadow)
     } while (!walk.done && (IN_STEP || trips < most_trips));
 }
 
-// A driver that limits loops has ended a walk early, so the sample is lost.
+// A driver that limits loops has ended a walk early; the sample is lost.
 bool walk_was_cut = false;
 
 void finish(inout Walk walk, bool has_shadow)

@@ -1,4 +1,3 @@
-// A point of a path on a surface.
 #ifndef VERTEX_GLSL
 #define VERTEX_GLSL
 
@@ -13,13 +12,13 @@ struct Vertex {
 };
 
 struct Arrival {
-    vec3 point;     // off the surface, by the rounding of the distance
+    vec3 point;     // near the surface; the distance is rounded
     vec3 direction;
     uint surface;
 };
 
-// Moves the hit onto the surface. The distance's rounding displaces it along the ray, up to thousands of times its own
-// rounding.
+// Moves the hit onto the surface. Rounding of the distance has moved it along the ray, up to thousands of times as far
+// as the rounding of its coordinates.
 Vertex vertex_at(Arrival arrival, float time)
 {
     uint surface = arrival.surface;
@@ -30,7 +29,7 @@ Vertex vertex_at(Arrival arrival, float time)
         Ball ball = ball_of(surface, time);
         vec3 centre = ball.centre_radius.xyz;
         centre = nearest_centre(ball, centre, centre - position, KINDS);
-        vec3 from_centre = position - centre; // normalize() is three divisions on lavapipe
+        vec3 from_centre = position - centre; // normalize() takes three divisions on lavapipe
         normal = from_centre * inversesqrt(dot(from_centre, from_centre));
         position = centre + ball.centre_radius.w * normal;
     } else {

@@ -188,8 +188,8 @@ typedef struct pt_plane {
 typedef struct pt_scene {
     uint32_t struct_size;                 /**< sizeof(pt_scene) */
     uint32_t material_count;              /**< elements of materials */
-    uint32_t sphere_count;                /**< elements of spheres; at most 2^26 with those of all sphere_arrays */
-    uint32_t plane_count;                 /**< elements of planes; fewer than 2^30 with all spheres */
+    uint32_t sphere_count;                /**< elements of spheres; all spheres together at most 2^26 */
+    uint32_t plane_count;                 /**< elements of planes; spheres and planes together fewer than 2^30 */
     const pt_material *materials;         /**< each array may be NULL only if its count is 0 */
     const pt_sphere *spheres;             /**< in any order */
     const pt_plane *planes;               /**< in any order */
@@ -406,8 +406,8 @@ typedef void (*pt_store_kernels_fn)(void *user, const char *key, const void *dat
 /** Bits of pt_create_info.flags. */
 enum {
     PT_CREATE_VALIDATION = 1, /**< the Khronos validation layer reports to log; absent: PT_ERROR_UNSUPPORTED */
-    /** no kernels that have a scene's numbers as constants. Such kernels are up to 1.5 times as fast on CPUs, but every
-     * scene and camera needs new ones. By default, scenes that are rendered for some time get them. */
+    /** no kernels that have a scene's numbers as constants. These kernels are up to 1.5 times as fast on CPUs, but
+     * every scene and camera needs new ones. By default, scenes that are rendered for some time get them. */
     PT_CREATE_NO_SCENE_KERNELS = 2
 };
 
@@ -458,8 +458,8 @@ PT_API const char *pt_last_error(const pt_context *context);
 /** Waits for the device and frees everything. NULL is allowed. Call it from one thread, after all other calls on the
  * context. It never fails.
  *
- * It frees nothing in a forked child, in a callback of the context, or while another thread is in a call on it. In the
- * last two cases the log and pt_last_error report this, and the context can be destroyed later. */
+ * It frees nothing in a forked child, in a callback of the context, or while another thread is in a call on it. The log
+ * and pt_last_error report the last two cases, after which the context can be destroyed later. */
 PT_API void pt_destroy(pt_context *context);
 
 /** Copies a scene into the context and discards the samples.

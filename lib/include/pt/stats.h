@@ -80,7 +80,7 @@ typedef struct pt_error_estimate {
 } pt_error_estimate;
 
 /** Returns the next number of samples above sample_count at which a target error is checked: 16, 20, 24, 28, 32, 40,
- * 48, 56, 64, 80, ..., in steps of a quarter of a power of two. UINT32_MAX if there is none. Any thread; never
+ * 48, 56, 64, 80, ..., in steps of a quarter of a power of two. UINT32_MAX after the last one. Any thread; never
  * fails. */
 PT_API uint32_t pt_next_check(uint32_t sample_count);
 

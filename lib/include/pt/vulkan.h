@@ -25,8 +25,8 @@ typedef void (*pt_queue_fn)(void *user);
  * - Threads: The context calls lock_queue and unlock_queue around every vkQueueSubmit, and not around waits or other
  *   callbacks. These functions may lock a mutex that all users of the queue share. Without them no other thread may use
  *   the queue during a call on this context, not even by vkDeviceWaitIdle.
- * - Order: The context uses only its own buffers and those of pt_readback_to_buffer. Its pipeline barriers may delay
- *   other commands in the queue, but never change their results.
+ * - Order: The context uses only its own buffers and the caller's in pt_readback_to_buffer. Its pipeline barriers may
+ *   delay other commands in the queue, but never change their results.
  * - Time: Earlier work in the queue must not wait for the calling thread. The time of a submission includes the wait
  *   for earlier work, so later submissions get smaller. If a submission has not ended after 10 seconds, the device
  *   counts as lost.
