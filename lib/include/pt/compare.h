@@ -48,7 +48,7 @@ typedef struct pt_compare_info {
     double min_change;        /**< change of light that must not be missed, a fraction >= 0; default 1 */
 } pt_compare_info;
 
-/** A region of the picture. Arrays are R, G, B. The struct is an element of arrays and gains no fields. */
+/** A region of the picture. Arrays are R, G, B. */
 typedef struct pt_compared_region {
     uint32_t x;           /**< first column */
     uint32_t y;           /**< first row */

@@ -1,4 +1,5 @@
-/** @file pt: denoising by Open Image Denoise, with the error of the denoised picture.
+/** @file
+ * pt: denoising by Open Image Denoise, with the error of the denoised picture.
  *
  * pt_denoise filters two images of one scene, which have different seeds and equally many samples. The result lies
  * between their mean and the filtered images (shaders/README.md, section 11). No value leaves the range of both images

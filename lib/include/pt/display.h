@@ -1,13 +1,5 @@
-/** @file pt: radiance to pixels for displays and PNG files, by exposure, white point, tone curve and encoding.
- *
- *     pt_display_info display = {0};
- *     display.struct_size = sizeof display;
- *     display.automatic_exposure = 1;
- *     display.pixel_count = width * height;
- *     display.radiance = radiance;
- *     display.pixels = bytes;
- *     display.size_bytes = 3 * width * height;
- *     result = pt_display(&display);
+/** @file
+ * pt: radiance to pixels for displays and PNG files, by exposure, white point, tone curve and encoding.
  */
 #ifndef PT_DISPLAY_H
 #define PT_DISPLAY_H
@@ -54,10 +46,8 @@ PT_API pt_result pt_display(const pt_display_info *info);
 /** Finds the exposure that brings the average to middle grey, 0.18. It is in stops, rounded to hundredths, in [-64,
  * 64].
  *
- * The average is the exponential of the mean logarithm of pixels (Reinhard, Stark, Shirley, Ferwerda 2002, eqs. 1 and
- * 2), with two differences. A pixel counts by the mean of its channels, because by luminance blue would be overexposed.
- * Pixels below 1/128 of the picture's mean have less weight. For this mean, values are clipped three times to the mean
- * so far, so that small lamps count little. The exposure of black pixels is 0.
+ * The average is the exponential of the mean logarithm (Reinhard, Stark, Shirley, Ferwerda 2002, eqs. 1 and 2) of the
+ * pixels' channel means. Pixels below 1/128 of the picture's mean have less weight. The exposure of black pixels is 0.
  *
  * radiance is as in pt_display_info, or NULL if pixel_count is 0. Any thread. */
 PT_API pt_result pt_automatic_exposure(const float *radiance, uint64_t pixel_count, double *exposure);

@@ -19,8 +19,8 @@ extern "C" {
  * some hundred more. Otherwise *size_bytes is the size of data, and receives the number of bytes written. Equal samples
  * give equal bytes. Later versions of this library can read the bytes (lib/film/FORMAT.md).
  *
- * One thread at a time. PT_ERROR_INVALID_STATE: there is no sample. PT_ERROR_INVALID_ARGUMENT: *size_bytes is too
- * small. After a failure *size_bytes is unchanged, and the contents of data are undefined. */
+ * PT_ERROR_INVALID_STATE: there is no sample. PT_ERROR_INVALID_ARGUMENT: *size_bytes is too small. After a failure
+ * *size_bytes is unchanged, and the contents of data are undefined. */
 PT_API pt_result pt_save_film(pt_context *context, void *data, uint64_t *size_bytes);
 
 /** Adds a saved film's samples to the context's samples.
@@ -31,16 +31,14 @@ PT_API pt_result pt_save_film(pt_context *context, void *data, uint64_t *size_by
  *
  * The bytes may come from an untrusted source.
  *
- * One thread at a time. PT_ERROR_INCOMPATIBLE: the bytes are not a film, are damaged, belong to another picture, or
- * have samples that the context already has. The message has a line for each difference. PT_ERROR_INVALID_STATE: scene,
- * camera or render settings are missing. PT_ERROR_OUT_OF_DEVICE_MEMORY: the device has too little memory for a second
- * copy of the sums. */
+ * PT_ERROR_INCOMPATIBLE: the bytes are not a film, are damaged, belong to another picture, or have samples that the
+ * context already has. The message has a line for each difference. PT_ERROR_OUT_OF _DEVICE_MEMORY: the device has too
+ * little memory for a second copy of the sums. */
 PT_API pt_result pt_add_film(pt_context *context, const void *data, uint64_t size_bytes);
 
 /* ---- Films without a context ------------------------------------------------------------------------------------ */
 
-/** A film in memory. It needs no device and no scene. The caller owns it from pt_open_film to pt_close_film. Only one
- * thread at a time may use a film. */
+/** A film in memory. The caller owns it from pt_open_film to pt_close_film. */
 typedef struct pt_film pt_film;
 
 /** The picture of a film, and the smallest rectangle that contains the film's pixels. */
@@ -57,8 +55,8 @@ typedef struct pt_film_info {
     uint32_t estimator;       /**< PT_ESTIMATOR_*, never BEST */
     uint32_t sampler;         /**< PT_SAMPLER_*, never BEST */
     uint32_t tile_count;      /**< number of tiles; 1 if all pixels have the same samples */
-    /** Number of samples that every pixel needs before a target error is reached. This number is expected to hit all
-     * lamps in view that are smaller than a pixel. 0: there are no such lamps. */
+    /** Number of samples that every pixel needs before a target error is reached, so that they hit lamps in view
+     * smaller than a pixel. 0: there are no such lamps. */
     uint32_t lamp_sample_count;
     const char *device; /**< devices and drivers that took the samples; ASCII, owned by the film */
     uint32_t flags;     /**< PT_RENDER_* */
@@ -75,7 +73,7 @@ typedef struct pt_film_tile {
     uint32_t range_count; /**< number of the tile's sample ranges; >= 1 */
 } pt_film_tile;
 
-/** The samples with indices first to end - 1. The struct is an element of arrays and gains no fields. */
+/** The samples with indices first to end - 1. */
 typedef struct pt_sample_range {
     uint64_t first; /**< index of the first sample */
     uint64_t end;   /**< > first, <= 2^32 */
@@ -88,12 +86,12 @@ PT_API pt_result pt_open_film(const void *data, uint64_t size_bytes, pt_film **f
 /** Frees a film. NULL is allowed. One thread, after all other calls on the film; never fails. */
 PT_API void pt_close_film(pt_film *film);
 
-/** Adds the samples of another film, given as bytes. The other film may have other pixels of the image. One thread at a
- * time. PT_ERROR_INCOMPATIBLE: the bytes are not a film, are damaged, belong to another picture, or have samples that a
+/** Adds the samples of another film, given as bytes. The other film may have other pixels of the image.
+ * PT_ERROR_INCOMPATIBLE: the bytes are not a film, are damaged, belong to another picture, or have samples that a
  * pixel of the film already has. */
 PT_API pt_result pt_merge_film(pt_film *film, const void *data, uint64_t size_bytes);
 
-/** Writes the bytes of a film. data, *size_bytes and errors are as for pt_save_film. One thread at a time. */
+/** Writes the bytes of a film. data, *size_bytes and errors are as for pt_save_film. */
 PT_API pt_result pt_write_film(const pt_film *film, void *data, uint64_t *size_bytes);
 
 /** Receives the next bytes of a film. data is valid during the call. Return 0 to go on. Any other value ends
@@ -101,34 +99,33 @@ PT_API pt_result pt_write_film(const pt_film *film, void *data, uint64_t *size_b
 typedef int32_t (*pt_take_bytes_fn)(void *user, const void *data, uint64_t size_bytes);
 
 /** Passes the bytes of pt_write_film to take, in order, in pieces of at most a megabyte. take must not call functions
- * on this film. One thread at a time. PT_CANCELLED: take ended the call. */
+ * on this film. PT_CANCELLED: take ended the call. */
 PT_API pt_result pt_stream_film(const pt_film *film, pt_take_bytes_fn take, void *user);
 
 /** Writes radiance, standard error, sample counts or coverage, with the bits of pt_readback. The whole image is the
  * rectangle of pt_film_info, so pt_image.x and pt_image.y count from the rectangle's corner. Pixels that the film lacks
- * are black, with a standard error of INFINITY. One thread at a time. PT_ERROR_INVALID_ARGUMENT: another quantity is
- * read, or coverage that the film lacks. */
+ * are black, with a standard error of INFINITY. PT_ERROR _INVALID_ARGUMENT: another quantity is read, or coverage that
+ * the film lacks. */
 PT_API pt_result pt_read_film(const pt_film *film, const pt_image *image);
 
-/** Describes a film. One thread at a time. */
+/** Describes a film. */
 PT_API pt_result pt_get_film_info(const pt_film *film, pt_film_info *info);
 
 /** Writes the tile with an index below pt_film_info.tile_count.
  *
- * Tiles do not overlap. One thread at a time. */
+ * Tiles do not overlap. */
 PT_API pt_result pt_get_film_tile(const pt_film *film, uint32_t index, pt_film_tile *tile);
 
-/** Lists the ranges of samples that a tile's pixels have, in ascending order. One thread at a time. */
+/** Lists the ranges of samples that a tile's pixels have, in ascending order. */
 PT_API pt_result pt_get_film_ranges(const pt_film *film, uint32_t tile, pt_sample_range *ranges, uint32_t *count);
 
 /** Writes the numbers of samples: sample_count, max_sample_count, mean_sample_count and rejected_samples, over the
- * rectangle of pt_film_info. Pixels that the film lacks have no samples. All other fields become 0. One thread at a
- * time. */
+ * rectangle of pt_film_info. All other fields become 0. */
 PT_API pt_result pt_get_film_stats(const pt_film *film, pt_stats *stats);
 
 /** Estimates the error of a film's image, as pt_get_error_estimate does for a context. The last bits may differ. A film
  * does not have the scene's lamps. So PT_UNCERTAIN_UNMET is set whenever the estimator finds lamps by chance (uniform,
- * cosine, bsdf) and max_path_length is above 1. One thread at a time. */
+ * cosine, bsdf) and max_path_length is above 1. */
 PT_API pt_result pt_get_film_error_estimate(const pt_film *film, pt_error_estimate *error);
 
 /** Decides which samples a film needs next to reach a target error, as pt_accumulate does with PT_SAMPLING_ADAPTIVE.
@@ -147,7 +144,7 @@ PT_API pt_result pt_get_film_error_estimate(const pt_film *film, pt_error_estima
  * PT_PENDING: some tiles need more samples. PT_TARGET_REACHED: the film has the target error. PT_OK: the film does not
  * have the target error, but all tiles that need more samples already have `most`.
  *
- * One thread at a time. PT_ERROR_INCOMPATIBLE: the film's tiles do not consist of such squares. */
+ * PT_ERROR_INCOMPATIBLE: the film's tiles do not consist of such squares. */
 PT_API pt_result pt_plan_film(pt_film *film, double target_error, uint32_t most, uint32_t *goals, uint32_t *count);
 
 #ifdef __cplusplus

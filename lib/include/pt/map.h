@@ -1,4 +1,5 @@
-/** @file pt: images in the library's memory, without the copy that pt_readback makes. */
+/** @file
+ * pt: images in the library's memory, without the copy that pt_readback makes. */
 #ifndef PT_MAP_H
 #define PT_MAP_H
 
@@ -16,7 +17,7 @@ extern "C" {
  * pt_reload_shaders or pt_destroy on the context, also while samples are being taken (pt/async.h). Any thread may read
  * them.
  *
- * One thread at a time. Fails as pt_readback does. After a failure *data and *size_bytes are unchanged.
+ * Fails as pt_readback does. After a failure *data and *size_bytes are unchanged.
  */
 PT_API pt_result pt_map_image(pt_context *context, const pt_image *image, void **data, uint64_t *size_bytes);
 

@@ -20,11 +20,13 @@
  *   context can only be destroyed.
  * - Errors: Any function can return PT_ERROR_OUT_OF_HOST_MEMORY and PT_ERROR_INTERNAL. An argument that breaks a rule
  *   of the headers gives PT_ERROR_INVALID_ARGUMENT. A driver's failure gives PT_ERROR_SHADER,
- *   PT_ERROR_OUT_OF_DEVICE_MEMORY or PT_ERROR_DEVICE_LOST. Comments of functions list only further errors and causes.
- * - Threads: Different contexts are independent. Only one thread at a time may use a context. While one thread is in a
- *   call, calls of other threads on the same context return PT_ERROR_INVALID_STATE, except pt_cancel (pt/async.h). The
- *   library starts no threads (drivers do), prints nothing and has no globals. It reads no files outside
- *   pt_create_info.shader_dir. On Mesa's lavapipe, calls need less than 256 KiB of stack.
+ *   PT_ERROR_OUT_OF_DEVICE_MEMORY or PT_ERROR_DEVICE_LOST. A call that needs a scene, camera or render settings returns
+ *   PT_ERROR_INVALID_STATE if they are missing. Comments of functions list only further errors and causes.
+ * - Threads: Different contexts are independent. Only one thread at a time may use a context or a film, unless the
+ *   function's comment says more. While one thread is in a call, calls of other threads on the same context return
+ *   PT_ERROR_INVALID_STATE, except pt_cancel (pt/async.h). The library starts no threads (drivers do), prints nothing
+ *   and has no globals. It reads no files outside pt_create_info.shader_dir. On Mesa's lavapipe, calls need less than
+ *   256 KiB of stack.
  * - Processes: A forked child may create its own contexts. Its calls on the parent's contexts return
  *   PT_ERROR_INVALID_STATE, and its pt_destroy does not touch them, because the child lacks the driver's threads.
  * - Callbacks: A callback runs inside the call, on the calling thread, and must not throw. The calls that it makes on
@@ -121,10 +123,9 @@ enum {
 typedef struct pt_sphere {
     double center[3]; /**< at time 0 */
     double radius;    /**< > 0 */
-    /** Displacement from time 0 to time 1. If the surface is nearer to the camera than 1/65536 of the radius when the
+    /** Displacement from time 0 to time 1. If the camera is nearer to the surface than 1/65536 of the radius when the
      * shutter opens, the sphere must move by less than 1/32 of the radius while the shutter is open. Otherwise
-     * pt_accumulate returns PT_ERROR_UNSUPPORTED. With an orthographic projection, the distance of the first visible
-     * surface counts. The rule then applies only if half the view's diagonal is below 1/65536 of the radius. */
+     * pt_accumulate returns PT_ERROR_UNSUPPORTED. */
     double motion[3];
     uint32_t material; /**< index into pt_scene.materials */
     uint32_t reserved; /**< 0 */
@@ -169,8 +170,6 @@ typedef struct pt_sphere_array {
      * ray, decides at random for each sphere. So the mean fraction of light that passes several spheres is the product
      * of their 1 - opacity. FLOAT32 or FLOAT64, rounded to a multiple of 1/255; default 1.
      *
-     * All samplers except PT_SAMPLER_RANDOM spread the decisions for one sphere evenly over 16 samples.
-     *
      * A sphere with an opacity below 1 is always in a tree (PT_FEATURE_TREE), and its radius is rounded by up to 2^-16
      * of its value. If its material emits or is hidden, pt_set_scene returns PT_ERROR_INVALID_SCENE. */
     pt_column opacity;
@@ -206,7 +205,7 @@ typedef struct pt_scene {
 enum {
     PT_PROJECTION_PERSPECTIVE = 0, /**< rays start at position (a pinhole) or on a lens (pt_camera.aperture) */
     /** parallel rays along the viewing direction. They start on the plane through position perpendicular to this
-     * direction. Surfaces behind the plane are invisible. If the plane cuts a sphere, the camera sees its inside. */
+     * direction. Surfaces behind the plane are invisible. */
     PT_PROJECTION_ORTHOGRAPHIC = 1
 };
 
@@ -266,8 +265,7 @@ enum {
 
 /** The size of the image and the method of rendering.
  *
- * An image too large for a device can be rendered in pieces of some rows each, with the same bits. A piece is read back
- * as an image of its own. */
+ * first_row and row_count select some rows, which are read back as an image of their own. */
 typedef struct pt_render {
     uint32_t struct_size;     /**< sizeof(pt_render) */
     uint32_t width;           /**< pixels, >= 1; width * height <= 2^32 - 1 */
@@ -466,46 +464,42 @@ PT_API void pt_destroy(pt_context *context);
  *
  * The three setters may be called in any order and repeatedly.
  *
- * One thread at a time. PT_CANCELLED: pt_scene.progress asked to stop. PT_ERROR_INVALID_SCENE: the scene breaks a rule.
- * The message has a line for each of the first eight broken rules and the number of the others. */
+ * PT_CANCELLED: pt_scene .progress asked to stop. PT_ERROR_INVALID_SCENE: the scene breaks a rule. The message has a
+ * line for each of the first eight broken rules and the number of the others. */
 PT_API pt_result pt_set_scene(pt_context *context, const pt_scene *scene);
 
-/** Copies a camera into the context and discards the samples. One thread at a time. */
+/** Copies a camera into the context and discards the samples. */
 PT_API pt_result pt_set_camera(pt_context *context, const pt_camera *camera);
 
 /** Copies render settings into the context and discards the samples.
  *
- * Allocates 112 bytes a pixel on the device. One thread at a time. PT_ERROR_UNSUPPORTED: the device has no buffers of
- * that size; render fewer rows at a time. The same helps against PT_ERROR_OUT_OF_DEVICE_MEMORY. */
+ * Allocates 112 bytes a pixel on the device. PT_ERROR_UNSUPPORTED: the device has no buffers of that size. Render fewer
+ * rows at a time in this case, and also after PT_ERROR_OUT_OF_DEVICE_MEMORY. */
 PT_API pt_result pt_set_render(pt_context *context, const pt_render *render);
 
-/** Builds the kernels for the present scene, camera and render settings ahead of pt_accumulate. Drivers cannot be
- * interrupted while they build a kernel.
+/** Builds the kernels for the present scene, camera and render settings ahead of pt_accumulate.
  *
  * A kernel depends on the kinds and numbers of surfaces, and on which side of them the camera is, but not on their
  * positions. The samples stay.
  *
- * One thread at a time. PT_ERROR_INVALID_STATE: scene, camera or render settings are missing. PT_ERROR_UNSUPPORTED: the
- * scene exceeds the device's limits. */
+ * PT_ERROR_UNSUPPORTED: the scene exceeds the device's limits. */
 PT_API pt_result pt_prepare(pt_context *context);
 
 /** Adds samples, and returns when they are taken.
  *
  * The bits of the sum do not depend on how samples are split over calls. Samples more than 2^20 times as bright as the
- * brightest emission are left out and counted (pt_stats.rejected_samples). The estimators uniform, cosine and light can
- * have such samples on surfaces of glossiness beyond 1e5.
+ * brightest emission are left out and counted (pt_stats.rejected_samples).
  *
- * One thread at a time. PT_CANCELLED and PT_TARGET_REACHED: fewer samples were taken, all of them complete.
- * PT_ERROR_INVALID_STATE: scene, camera or render settings are missing. PT_ERROR_UNSUPPORTED: the scene exceeds the
- * device's limits. After a failure complete samples are kept, and pt_stats.sample_count is their number. The number is
- * 0 if several devices had begun samples that they could not complete. */
+ * PT_CANCELLED and PT_TARGET_REACHED: fewer samples were taken, all of them complete. PT_ERROR_UNSUPPORTED: the scene
+ * exceeds the device's limits. After a failure complete samples are kept, and pt_stats.sample_count is their number.
+ * The number is 0 if several devices had begun samples that they could not complete. */
 PT_API pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *info);
 
 /** Writes a quantity of all pixels or of a rectangle.
  *
- * After a failure the contents of image->data are undefined. One thread at a time. PT_ERROR_INVALID_STATE: there is no
- * sample or, for first hits, no scene, camera or render settings. First hits also fail as pt_prepare does.
- * PT_ERROR_INVALID_ARGUMENT: coverage is read without PT_RENDER_COVERAGE. */
+ * After a failure the contents of image->data are undefined. PT_ERROR_INVALID_STATE: there is no sample. First hits
+ * need no sample and fail as pt_prepare does. PT_ERROR_INVALID_ARGUMENT: coverage is read without
+ * PT_RENDER_COVERAGE. */
 PT_API pt_result pt_readback(pt_context *context, const pt_image *image);
 
 #ifdef __cplusplus

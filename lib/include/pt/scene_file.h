@@ -3,8 +3,7 @@
  *
  * These functions are a library of their own, libpt-scene (pkg-config pt-scene, CMake pt::scene and pt::scene_static).
  * It needs neither libpt nor Vulkan. The rules of pt/pt.h about structs, ownership, results and floating point hold.
- *
- * Threads: only one thread at a time may use a file. Different files are independent. */
+ * Only one thread at a time may use a file. Different files are independent. */
 #ifndef PT_SCENE_FILE_H
 #define PT_SCENE_FILE_H
 
@@ -33,9 +32,9 @@ enum {
 
 /** Arguments of pt_open_scene_file. */
 typedef struct pt_scene_file_info {
-    uint32_t struct_size;               /**< sizeof(pt_scene_file_info); must be set by the caller */
+    uint32_t struct_size;               /**< sizeof(pt_scene_file_info) */
     uint32_t override_count;            /**< number of overrides */
-    const char *path;                   /**< the file's path, never NULL; files of columns are relative to its folder */
+    const char *path;                   /**< the file's path; paths in the file are relative to its folder */
     const char *text;                   /**< the file's contents (UTF-8), so that path is not read; or NULL */
     uint64_t text_bytes;                /**< size of text */
     const pt_scene_override *overrides; /**< later ones replace earlier ones; NULL if override_count is 0 */
@@ -46,7 +45,7 @@ typedef struct pt_scene_file_info {
 
 /** Settings of the file for the number of samples and the display (pt/display.h). */
 typedef struct pt_scene_film {
-    uint32_t struct_size;        /**< sizeof(pt_scene_film); must be set by the caller */
+    uint32_t struct_size;        /**< sizeof(pt_scene_film) */
     uint32_t sample_count;       /**< samples of a pixel; 0 if the file has none */
     uint32_t curve;              /**< PT_CURVE_* */
     uint32_t automatic_exposure; /**< as in pt_display_info */
@@ -56,7 +55,7 @@ typedef struct pt_scene_film {
 
 /** The source of a value that libpt refuses. */
 typedef struct pt_rule_source {
-    uint32_t struct_size;   /**< sizeof(pt_rule_source); must be set by the caller */
+    uint32_t struct_size;   /**< sizeof(pt_rule_source) */
     uint32_t line;          /**< line of the value, from 1; 0: the file does not have it */
     int64_t override_index; /**< index of the override that has the value; -1: none */
     /** "scene.json:7: materials.gold.glossiness = -1: must be >= 0". Valid until the next call with the file. */
@@ -69,24 +68,20 @@ typedef struct pt_rule_source {
  * wrong. PT_ERROR_FILE: a file cannot be read. */
 PT_API pt_result pt_open_scene_file(const pt_scene_file_info *info, pt_scene_file **file);
 
-/** Frees the file and the arrays of its scene. NULL is allowed. One thread at a time per file. */
+/** Frees the file and the arrays of its scene. NULL is allowed. */
 PT_API void pt_close_scene_file(pt_scene_file *file);
 
-/** Fills the structs that are not NULL with the file's contents. Each struct_size must be set. Arrays of the scene are
- * valid until pt_close_scene_file. Fields that the file does not set become 0.
- *
- * One thread at a time per file. */
+/** Fills the structs that are not NULL with the file's contents. Arrays of the scene are valid until
+ * pt_close_scene_file. Fields that the file does not set become 0. */
 PT_API pt_result pt_get_scene_file(const pt_scene_file *file, pt_scene *scene, pt_camera *camera, pt_render *render,
                                    pt_scene_film *film);
 
 /** Returns the path of the column file with the given index, or NULL beyond the last one. The scene file owns the
- * string. One thread at a time per file. */
+ * string. */
 PT_API const char *pt_get_column_path(const pt_scene_file *file, uint32_t index);
 
 /** Finds the value that broke a rule of pt_set_scene, pt_set_camera, pt_set_render or pt_accumulate (pt/errors.h).
- * Parses the file again. source->struct_size must be set.
- *
- * One thread at a time per file. */
+ * Parses the file again. */
 PT_API pt_result pt_find_rule_source(pt_scene_file *file, const pt_broken_rule *rule, pt_rule_source *source);
 
 /** Returns the JSON Schema (draft 7) of scene files, for editors. A static string; NULL if there is no memory. Any

@@ -18,13 +18,13 @@ typedef void (*pt_queue_fn)(void *user);
  *
  * - Needed: Instance and device come from the Vulkan loader that this library is linked to (libvulkan.so.1).
  *   VkApplicationInfo.apiVersion of the instance is 1.2 or higher, and the physical device supports Vulkan 1.2.
- *   VK_KHR_portability_subset is enabled if the device has it. No other extension and no feature is needed. The device
- *   was created from one physical device, not from a group. The queue's family has VK_QUEUE_COMPUTE_BIT.
+ *   VK_KHR_portability_subset is enabled if the device has it. The device was created from one physical device, not
+ *   from a group. The queue's family has VK_QUEUE_COMPUTE_BIT.
  * - Lifetime: All handles must outlive the context, which destroys none of them. The context destroys its own objects
- *   in pt_destroy or earlier, without allocation callbacks. It waits only for its own submissions.
+ *   in pt_destroy or earlier, without allocation callbacks.
  * - Threads: The context calls lock_queue and unlock_queue around every vkQueueSubmit, and not around waits or other
- *   callbacks. These functions may lock a mutex that all users of the queue share. Without them no other thread may use
- *   the queue during a call on this context, not even by vkDeviceWaitIdle.
+ *   callbacks. Without these functions no other thread may use the queue during a call on this context, not even by
+ *   vkDeviceWaitIdle.
  * - Order: The context uses only its own buffers and the caller's in pt_readback_to_buffer. Its pipeline barriers may
  *   delay other commands in the queue, but never change their results.
  * - Time: Earlier work in the queue must not wait for the calling thread. The time of a submission includes the wait
@@ -52,7 +52,7 @@ struct pt_vulkan {
 /** A buffer of the caller's device into which a kernel writes an image or a rectangle of it.
  *
  * - Memory: The buffer has VK_BUFFER_USAGE_STORAGE_BUFFER_BIT and memory of any type. It belongs to pt_vulkan's queue
- *   family unless it is VK_SHARING_MODE_CONCURRENT. Nothing is written between the rows, or before or after the image.
+ *   family unless it is VK_SHARING_MODE_CONCURRENT.
  * - Before: The caller's earlier accesses to the memory must have ended, or wait_semaphore must be signalled after
  *   them. The signal operation must already be submitted. The kernel waits for the semaphore in
  *   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT.
@@ -87,8 +87,7 @@ typedef struct pt_buffer_image {
  * After a call with signal_semaphore, the next pt_readback_to_buffer fails instead and writes nothing. After other
  * failures, buffer and semaphores are unchanged unless the device was lost.
  *
- * One thread at a time. PT_ERROR_INVALID_STATE: the context was created without pt_create_info.vulkan, or there is no
- * sample. */
+ * PT_ERROR_INVALID_STATE: the context was created without pt_create_info.vulkan, or there is no sample. */
 PT_API pt_result pt_readback_to_buffer(pt_context *context, const pt_buffer_image *image);
 
 #ifdef __cplusplus

@@ -11,12 +11,12 @@ class Quantity(enum.IntEnum):
     """A quantity of an image."""
 
     RADIANCE = 0  # mean of the samples
-    STANDARD_ERROR = 1  # standard error of the mean
-    SAMPLE_COUNT = 2  # number of the pixel's samples, rounded to float32, the same in all channels
+    STANDARD_ERROR = 1  # standard error of the mean, from the difference between the means of two parts of the samples
+    SAMPLE_COUNT = 2  # number of the pixel's samples, the same in all channels
     DEPTH = 3  # depth along the viewing direction
-    NORMAL = 4  # unit normal in world coordinates, on the side of the camera
+    NORMAL = 4  # unit normal in world coordinates, towards the camera
     ALBEDO = 5  # diffuse + specular, each component at most 1
-    OBJECT = 6  # index of the surface of PT_QUANTITY_DEPTH
+    OBJECT = 6  # index of the surface that PT_QUANTITY_DEPTH hits
     COVERAGE = 7  # fraction of the pixel's samples whose camera rays hit a surface, the same in all channels
 
 
@@ -32,13 +32,13 @@ class Format(enum.IntEnum):
 class MaterialFlag(enum.IntFlag):
     """Further properties of a material."""
 
-    HIDDEN_FROM_CAMERA = 1  # camera rays pass through surfaces of the material
+    HIDDEN_FROM_CAMERA = 1  # camera rays pass through surfaces of this material
 
 
 class Projection(enum.IntEnum):
     """The projection of a camera."""
 
-    PERSPECTIVE = 0  # all rays start at position (a pinhole), or on a lens (pt_camera.aperture)
+    PERSPECTIVE = 0  # rays start at position (a pinhole) or on a lens (pt_camera.aperture)
     ORTHOGRAPHIC = 1  # parallel rays along the viewing direction
 
 
@@ -47,10 +47,10 @@ class Estimator(enum.IntEnum):
 
     BEST = 0  # the best one in this version
     UNIFORM = 1  # directions uniform on the hemisphere
-    COSINE = 2  # directions in proportion to the cosine to the normal
-    BSDF = 3  # directions by the material, cosine and specular lobe
+    COSINE = 2  # density proportional to the cosine to the normal
+    BSDF = 3  # density by cosine and specular lobe
     LIGHT = 4  # lamps sampled by solid angle
-    MIS = 5  # lamps sampled by solid angle and directions as in bsdf, combined by weights
+    MIS = 5  # light and bsdf combined by weights
 
 
 class Sampler(enum.IntEnum):
@@ -58,7 +58,7 @@ class Sampler(enum.IntEnum):
 
     BEST = 0  # the best one in this version
     RANDOM = 1  # independent random numbers
-    HALTON = 2  # radical inverses in prime bases, the same points in every pixel
+    HALTON = 2  # Halton points, the same in every pixel
     HALTON_CP = 3  # Halton points, rotated at random per pixel and dimension (Cranley, Patterson)
     SOBOL = 4  # Sobol points, Owen-scrambled per pixel and dimension
 
@@ -68,7 +68,7 @@ class Sampling(enum.IntEnum):
 
     BEST = 0  # adaptive with a target error, otherwise uniform
     UNIFORM = 1  # the same number in all pixels
-    ADAPTIVE = 2  # more samples where they reduce the error most
+    ADAPTIVE = 2  # more samples where they reduce the error most (shaders/README.md, section 11)
 
 
 class ColumnType(enum.IntEnum):
@@ -85,7 +85,7 @@ class LogLevel(enum.IntEnum):
 
     ERROR = 1  # something is wrong
     WARNING = 2  # something may be wrong
-    INFO = 3  # devices, the kernels that drivers build, and how long that takes
+    INFO = 3  # devices, built kernels and their build times
 
 
 class RenderFlag(enum.IntFlag):
@@ -98,7 +98,7 @@ class CreateFlag(enum.IntFlag):
     """Options of a context; see Context."""
 
     VALIDATION = 1  # the Khronos validation layer reports to log
-    NO_SCENE_KERNELS = 2  # no kernels with a scene's numbers as constants
+    NO_SCENE_KERNELS = 2  # no kernels that have a scene's numbers as constants
 
 
 class DeviceKind(enum.IntEnum):
@@ -108,7 +108,7 @@ class DeviceKind(enum.IntEnum):
     INTEGRATED_GPU = 1  # shares the memory of the machine
     DISCRETE_GPU = 2  # has its own memory
     VIRTUAL_GPU = 3  # the GPU of a virtual machine
-    CPU = 4  # a driver that runs kernels on the CPU
+    CPU = 4  # a driver that runs on the CPU
 
 
 class Feature(enum.IntFlag):
@@ -118,12 +118,12 @@ class Feature(enum.IntFlag):
     GLOSS = 2  # specular lobes
     MOTION = 4  # spheres that move while the shutter is open
     LARGE = 8  # more surfaces than a uniform buffer holds, or a tree
-    TREE = 16  # a tree over the spheres, from 113 spheres on
+    TREE = 16  # a tree over the spheres, if there are at least 113
     ORTHOGRAPHIC = 32  # parallel camera rays
     HIDDEN = 64  # surfaces that the camera does not see
     LENS = 128  # camera rays start on a lens
-    CAPSULES = 256  # some spheres are swept along a segment
-    OPACITY = 512  # rays pass some spheres at random
+    CAPSULES = 256  # capsules (pt_sphere_array.end)
+    OPACITY = 512  # translucent spheres (pt_sphere_array.opacity)
 
 
 class Curve(enum.IntEnum):
@@ -142,7 +142,7 @@ class Light(enum.IntEnum):
     EQUAL_BITS = 1  # all numbers are equal
     SAME = 2  # no difference beyond noise
     DIFFERENT = 3  # the light differs in some region
-    UNDECIDED = 4  # no difference beyond noise, but a change of min_change may have been missed
+    UNDECIDED = 4  # no difference beyond noise, but the test may have missed a change of min_change
 
 
 class Uncertain(enum.IntFlag):
@@ -151,13 +151,13 @@ class Uncertain(enum.IntFlag):
     RMSE = 1  # rmse comes from fewer than 4 pixels
     RELATIVE_RMSE = 2
     UNSEEN = 4
-    UNMET = 8  # samples may have missed lamps
+    UNMET = 8  # samples may have missed lamps, for one of two reasons
 
 
 class SceneFileFlag(enum.IntFlag):
     """Parts of a scene file that are read."""
 
-    FRAME = 1  # the scene of the frame pt_scene_file_info.frame
+    FRAME = 1  # read the frame pt_scene_file_info.frame of an animation
 
 
 class Result(enum.IntEnum):
@@ -165,17 +165,17 @@ class Result(enum.IntEnum):
 
     OK = 0  # done
     CANCELLED = 1  # the caller stopped the call
-    TARGET_REACHED = 2  # the target error was reached before all samples were taken
-    PENDING = 3  # samples are being taken, see pt/async.h
+    TARGET_REACHED = 2  # the target error is reached
+    PENDING = 3  # samples are still being taken (pt/async.h)
     ERROR_INVALID_ARGUMENT = -1  # a field, size or pointer breaks a rule of this header
     ERROR_INVALID_SCENE = -2  # a scene breaks a rule
     ERROR_INVALID_STATE = -3  # another call must come first or must end first
-    ERROR_UNSUPPORTED = -4  # valid, but this device, driver or library cannot do it
+    ERROR_UNSUPPORTED = -4  # this device, driver or library cannot do it
     ERROR_NO_DEVICE = -5  # no Vulkan driver or no suitable device
     ERROR_OUT_OF_HOST_MEMORY = -6  # the machine has too little free memory
-    ERROR_OUT_OF_DEVICE_MEMORY = -7  # the device has too little free memory, for instance for this image
-    ERROR_DEVICE_LOST = -8  # the device or its driver gave up
+    ERROR_OUT_OF_DEVICE_MEMORY = -7  # the device has too little free memory
+    ERROR_DEVICE_LOST = -8  # the device stopped working
     ERROR_SHADER = -9  # the driver refused to build the kernel, or its GLSL does not compile
     ERROR_INTERNAL = -10  # a bug in this library or in the driver
-    ERROR_INCOMPATIBLE = -11  # bytes that are no film of this picture (pt/film.h)
+    ERROR_INCOMPATIBLE = -11  # the bytes are not a film of this picture (pt/film.h)
     ERROR_FILE = -12  # a file cannot be read (pt/scene_file.h)
