@@ -173,6 +173,90 @@ class Browser(unittest.TestCase):
         self.browser.until(f"{SAMPLES} > 8")
         self.assertAlmostEqual(distance()[0] / turned, 100 / 240, 1)
 
+    def box(self, element):
+        return self.browser.value(f"(b => [b.left, b.top, b.width, b.height])(document.getElementById('{element}').getBoundingClientRect())")
+
+    def tap(self, x, y):
+        left, top, width, height = self.box("picture")
+        at = {"x": left + (x + 0.5) * width / 256, "y": top + (y + 0.5) * height / 128}
+        self.browser.call("Input.dispatchTouchEvent", type="touchStart", touchPoints=[at])
+        self.browser.call("Input.dispatchTouchEvent", type="touchEnd", touchPoints=[])
+
+    def test_fits_or_shows_pixels(self):
+        self.open(samples=4)
+        _, _, width, height = self.box("picture")
+        _, _, most_wide, most_high = self.box("stage")
+        self.assertAlmostEqual(min(most_wide / width, most_high / height), 1.0, 2)
+        self.browser.value(click("whole"))
+        self.assertEqual(self.box("picture")[2:], [256, 128])
+        self.browser.value(click("fit"))
+        self.assertEqual(self.box("picture")[2:], [width, height])
+
+    def test_a_tap_holds_a_pixel(self):
+        self.open(samples=16)
+        self.browser.until(f"{SAMPLES} === 16")
+        before = self.browser.value("document.getElementById('camera').value")
+        self.tap(200, 90)
+        pixel = json.loads(self.browser.until("document.getElementById('pixel').dataset.value"))
+        self.assertEqual((pixel["x"], pixel["y"], pixel["samples"]), (200, 90, 16))
+        self.assertIn("standard error", self.browser.value("document.getElementById('pixel').textContent"))
+        self.assertIn("M200,90h1", self.browser.value("document.getElementById('marks').innerHTML"))
+        self.assertEqual(self.browser.value("document.getElementById('camera').value"), before)
+        self.assertEqual(self.browser.value(SAMPLES), 16)
+
+    def test_on_a_phone_the_picture_comes_first(self):
+        self.browser.call("Emulation.setDeviceMetricsOverride", width=400, height=800, deviceScaleFactor=2, mobile=True)
+        self.addCleanup(lambda: self.browser.call("Emulation.setDeviceMetricsOverride", width=1400, height=860, deviceScaleFactor=1,
+                                                  mobile=False))
+        self.open(samples=64, shader_dir=self.kernels)
+        self.browser.until(f"document.querySelector('#text .cm-line') && {SAMPLES} === 64")
+        self.tap(100, 100)
+        self.browser.until("document.getElementById('pixel').dataset.value")
+        tops = [self.box(name)[1] for name in ("stage", "pixel", "name", "editor", "layers")]
+        self.assertEqual((tops[0], tops), (0, sorted(tops)))
+        self.assertEqual(self.browser.value("document.documentElement.scrollWidth"), 400)
+        self.shot("phone")
+
+    def test_light_and_dark_follow_the_system(self):
+        ground = "getComputedStyle(document.querySelector('.cm-editor')).backgroundColor"
+        self.addCleanup(lambda: self.browser.call("Emulation.setEmulatedMedia", features=[]))
+        for scheme, color in (("light", "rgb(255, 255, 255)"), ("dark", "rgb(27, 29, 32)")):
+            self.browser.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
+            self.open(samples=64, shader_dir=self.kernels)
+            self.browser.until(f"document.querySelector('#text .cm-line') && {SAMPLES} === 64")
+            self.assertEqual(self.browser.value(ground), color)
+            self.shot(scheme)
+
+    def test_refusals_stand_at_their_field(self):
+        self.open(samples=4)
+        for name, field, value, words in (("width", "size", 0, "0: must be a whole number from 1 to 16777216"),
+                                          ("height", "size", 99999999, "must be a whole number from 1 to 16777216"),
+                                          ("height", "size", 100000, "256 x 100000: must have at most 16777216 pixels"),
+                                          ("max_path_length", "max_path_length", 1025, "1025: must be a whole number from 1 to 1024")):
+            place = f"document.querySelector('[data-of={field}]')"
+            self.browser.value(choose(name, value))
+            self.assertIn(words, self.browser.until(f"{place}.textContent"))
+            self.assertGreater(self.browser.value(f"{place}.getBoundingClientRect().height"), 0)
+            self.browser.value(choose("width", 256) if name == "width" else choose("height", 128) if name == "height" else choose(name, 3))
+            self.browser.until(f"!{place}.textContent")
+
+    def test_nan_glares(self):
+        kernels = self.folder / "nan"
+        shutil.copytree(ROOT / "shaders", kernels)
+        path = kernels / "path.glsl"
+        text = path.read_text()
+        code = "    vec3 radiance = emitted_by(hit.surface);\n"
+        self.assertEqual(text.count(code), 1)
+        path.write_text(text.replace(code, code + "    if (pixel.x < 8u && pixel.y < 4u)\n        return vec3(sqrt(-1.0 - radiance.r));\n"))
+        self.open(shader_dir=kernels, samples=8)
+        self.browser.until(f"{SAMPLES} === 8")
+        self.assertEqual(self.browser.until("document.getElementById('note').textContent"),
+                         "256 samples were left out: not finite, negative or too bright. They are in 32 pixels, in magenta.")
+        glaring = (self.bytes_shown().reshape(128, 256, 3) == [255, 0, 255]).all(axis=2)
+        self.assertTrue(glaring[:4, :8].all())
+        self.assertEqual(glaring.sum(), 32)
+        self.shot("nan")
+
     def test_tiny_pixels_and_layers(self):
         self.open()
         self.browser.value("[...document.querySelectorAll('#sizes button')].at(-1).click()")
@@ -214,7 +298,7 @@ class Browser(unittest.TestCase):
         self.browser.until(f"{SAMPLES} > 64")
         self.assertEqual(self.browser.value(verdict), "")
         text = (kernels / "phong.glsl").read_text()
-        (kernels / "phong.glsl").write_text(text + "// edited\n")
+        (kernels / "phong.glsl").write_text(text.replace("vec3 f = material.diffuse;", "vec3 f = 1.0 * material.diffuse;"))
         self.browser.until(f"{verdict}.startsWith('same light as the built-in kernel to ')")
         self.shot("same")
         (kernels / "phong.glsl").write_text(text.replace("vec3 f = material.diffuse;", "vec3 f = 0.97 * material.diffuse;"))

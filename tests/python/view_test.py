@@ -1,5 +1,6 @@
 import asyncio
 import contextlib
+import dataclasses
 import http.client
 import json
 import os
@@ -26,6 +27,7 @@ import aiohttp  # noqa: E402
 from pt.view import View, _server  # noqa: E402
 from pt.view._built_in import verdict_of  # noqa: E402
 from pt.view._frame import faults_of  # noqa: E402
+from pt.view._rejected import rejected_samples  # noqa: E402
 
 
 def text_of(scene):
@@ -368,6 +370,56 @@ class Edits(unittest.TestCase):
                 page.send({"sampler": "halton"})
                 page.frame(lambda state: "must not be PT_SAMPLER_HALTON" in state["verdict"])
 
+    def test_a_save_of_comments_keeps_the_samples(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name, "kernels")
+            shutil.copytree(SHADERS, folder)
+            text = (folder / "phong.glsl").read_text()
+            scene = pathlib.Path(name, "s.json")
+            scene.write_text(text_of(SCENE_FILE))
+            with closing(View(scene, samples=16, shader_dir=folder)) as view, Page(view) as page:
+                seconds = page.frame(lambda state: state["samples"] == 16)["seconds"]
+                for file, changed in (("phong.glsl", "// A \\\nlong /* comment\n" + text + "  /* another\n one */\n"),
+                                      ("s.json", "// a comment\n" + text_of(SCENE_FILE))):
+                    revision = page.state["revision"]
+                    page.send({"save": file, "text": changed})
+                    state = page.frame(lambda state, before=revision: state["revision"] > before)
+                    self.assertEqual((state["samples"], state["seconds"], state["verdict"], state["faults"]), (16, seconds, "", []))
+                page.send({"save": "phong.glsl", "text": text.replace("vec3 f = material.diffuse;", "vec3 f = 1.0 * material.diffuse;")})
+                page.frame(lambda state: state["samples"] == 16 and state["verdict"] == "same bits as the built-in kernel")
+
+    def test_pixels_that_lose_samples_are_counted(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name, "kernels")
+            shutil.copytree(SHADERS, folder)
+            path = folder / "path.glsl"
+            code = "    vec3 radiance = emitted_by(hit.surface);\n"
+            path.write_text(path.read_text().replace(
+                code, code + "    if (pixel.x < 3u && pixel.y == 15u)\n        return vec3(sqrt(-1.0 - radiance.r));\n"))
+            scene = pathlib.Path(name, "s.json")
+            scene.write_text(text_of(SCENE_FILE))
+            with closing(View(scene, samples=16, shader_dir=folder)) as view, Page(view) as page:
+                state = page.frame(lambda state: state["samples"] == 16)
+                self.assertEqual((state["rejected"], state["spoilt"]), (48, 3))
+                glaring = (page.pixels[:, :, :3] == [255, 0, 255]).all(axis=2)
+                self.assertTrue(glaring[15, :3].all() and glaring.sum() == 3)
+            self.films(folder)
+
+    def films(self, folder):
+        with pt.Context(shader_dir=folder) as context:
+            context.set_scene(SCENE)
+            context.set_camera(CAMERA)
+            for first, samples in ((0, [[5, 0, 8], [16, 3, 1]]), (3, [[5, 13, 9], [16, 64, 1]])):
+                context.set_render(dataclasses.replace(settings(), first_sample=first))
+                context.accumulate_tiles(samples)
+                expected = np.zeros((16, 24), int)
+                expected[15, :3] = samples[1][0]
+                np.testing.assert_array_equal(rejected_samples(context.film()), expected)
+            film = context.film()
+        with closing(View(film)) as view, Page(view) as page:
+            self.assertEqual((page.frame()["rejected"], page.state["spoilt"]), (48, 3))
+            self.assertEqual((page.pixels[:, :, :3] == [255, 0, 255]).all(axis=2).sum(), 3)
+
     def test_verdicts(self):
         for light, smallest, words in (
                 (pt.Light.EQUAL_BITS, 0.004, "same bits as the built-in kernel"),
@@ -416,7 +468,42 @@ class Edits(unittest.TestCase):
         np.testing.assert_array_equal(page.radiance(), 2 * before)  # Powers of two are exact.
 
 
+class Addresses(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+        self.scene, self.file = self.folder / "s.json", self.folder / "cache" / "view.json"
+        self.scene.write_text(text_of(SCENE_FILE))
+
+    def address(self, **options):
+        with closing(View(self.scene, samples=1, address_file=self.file, **options)) as view:
+            return view.address
+
+    def test_an_address_works_again(self):
+        first = self.address()
+        self.assertEqual(self.file.stat().st_mode & 0o777, 0o600)
+        self.assertEqual(self.address(), first)
+        with closing(View(self.scene, samples=1, address_file=self.file)) as view:
+            self.assertEqual(view.address, first)
+            self.assertNotEqual(self.address().split("/")[3], first.split("/")[3])
+        self.assertEqual(self.address(), first)
+        self.assertEqual([path.name for path in self.file.parent.iterdir()], ["view.json"])
+
+    def test_files_that_others_may_know_are_not_used(self):
+        for spoil in (lambda: self.file.chmod(0o640), lambda: self.file.write_text("{"), lambda: self.file.write_text("[1, 2]"),
+                      lambda: self.file.write_text('{"port": 1, "token": "short"}'), lambda: self.file.rename(self.folder / "x")):
+            before = self.address()
+            spoil()
+            if not self.file.exists():
+                self.file.symlink_to(self.folder / "x")
+            self.assertNotEqual(self.address().split("/")[3], before.split("/")[3])
+            self.assertEqual((self.file.stat().st_mode & 0o777, self.file.is_symlink()), (0o600, False))
+
+
 class Command(unittest.TestCase):
+    def setUp(self):
+        self.cache = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+        self.enterContext(mock.patch.dict(os.environ, XDG_CACHE_HOME=str(self.cache)))
+
     def command(self, *arguments):
         return [sys.executable, "-m", "pt.view._command", *map(str, arguments)]
 
@@ -468,6 +555,8 @@ class Command(unittest.TestCase):
                 self.assertRegex(process.stdout.readline(), r"^http://127\.0\.0\.1:\d+/[\w-]{20,}/\n$")
                 process.send_signal(signal.SIGTERM)
                 self.assertEqual(process.wait(600), 0)
+            kept, = (self.cache / "pt" / "view").iterdir()
+            self.assertEqual(kept.stat().st_mode & 0o777, 0o600)
             scene.write_text(text_of({**SCENE_FILE, "lights": []}))
             done = subprocess.run(self.command(scene, "--no-browser"), capture_output=True, text=True)
             self.assertEqual(done.returncode, 3)

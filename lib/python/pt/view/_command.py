@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import argparse
+import hashlib
 import os
 import pathlib
 import shutil
@@ -84,6 +85,11 @@ def user_cache() -> pathlib.Path:
     return pathlib.Path(os.environ.get("XDG_CACHE_HOME") or pathlib.Path.home() / ".cache", "pt")
 
 
+def address_file(what: str) -> pathlib.Path:
+    name = hashlib.sha256(os.fsencode(os.path.realpath(what))).hexdigest()[:32]
+    return user_cache() / "view" / f"{name}.json"
+
+
 def open_browser(address: str) -> IO[str]:
     """The file is readable for its user alone, because all users see the arguments of a process."""
     user_cache().mkdir(parents=True, exist_ok=True)
@@ -124,7 +130,7 @@ def main() -> None:
         options = Options(**{name: value for name, value in vars(given).items()
                              if name in Options.__annotations__ and name not in ("size", "device")})
         view = View(given.what, size=given.size, samples=given.spp, device=given.device, shader_dir=shader_dir(given),
-                    port=given.port, options=options)
+                    port=given.port, options=options, address_file=address_file(given.what))
     except Error as error:
         refuse(str(error), CODE_OF_RESULT.get(error.result, INTERNAL))
     except OSError as error:

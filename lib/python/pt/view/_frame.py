@@ -21,12 +21,17 @@ METHODS: Final[dict[str, Any]] = {"sampler": Sampler, "estimator": Estimator}
 
 @dataclass(frozen=True)
 class Frame:
-    """`pixels` is the selected layer, height x width x 3. `values` are layers of samples, for questions about single pixels."""
+    """
+    pixels   the selected layer, height x width x 3
+    values   layers of samples, for questions about single pixels
+    spoilt   height x width: pixels that lost samples; None: no pixel did
+    """
 
     number: int
     state: dict[str, Any]
     pixels: Array | None
     values: tuple[Array, ...] = ()
+    spoilt: Array | None = None
 
     def message(self, pixels: bytes, stops: float) -> bytes:
         """Returns the length of the state, the state as JSON, and the pixels."""

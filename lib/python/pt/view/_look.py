@@ -11,6 +11,7 @@ from pt._enums import Curve
 from pt.view._frame import Frame
 
 Pixels = npt.NDArray[np.uint8]
+SPOILT: Final = (255, 0, 255)
 SIGNALS: Final[dict[str, Any]] = {"exposure": 0.0, "gamma": 1.0}  # numbers in [0, 1] become 0 to 255
 
 
@@ -38,6 +39,8 @@ class Look:
             if self.is_automatic and not frame.state.get("moving"):
                 self.stops = automatic_exposure(pixels)
             shown = self.pixels(pixels)
+            if frame.spoilt is not None:
+                shown[frame.spoilt] = SPOILT
         elif layer in ("depth", "samples"):
             shown = to_pixels(_greys(pixels[:, :, :1], layer == "depth"), **SIGNALS)
         elif layer == "normal":

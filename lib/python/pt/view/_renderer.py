@@ -15,14 +15,16 @@ from pt._errors import DeviceLostError, Error, InvalidSceneError
 from pt._pixels import Rectangle
 from pt._stats import ErrorEstimate
 from pt.view._built_in import SHARE, BuiltIn
+from pt.view._code import SHADERS, code_of
 from pt.view._frame import LAYERS, OF_SAMPLES, Frame, facts_of, faults_of, name_of
+from pt.view._rejected import rejected_samples
 from pt.view._source import Shown, Source
 
 MOVING_SECONDS: Final = 0.03  # time for a sample of all pixels while the camera moves
 STILL_SECONDS: Final = 0.25
 PUBLISHED_SHARE: Final = 0.03
 LOOK_SECONDS: Final = 0.5
-SHADERS: Final = (".comp", ".glsl", ".h")
+CODE: Final = (*SHADERS, ".json")
 
 
 class Renderer:
@@ -52,6 +54,7 @@ class Renderer:
         if size:
             self._settings = replace(self._settings, width=size[0], height=size[1])
         self._signatures = self._look()
+        self._code = {path: code_of(path) for path in self._signatures if path.suffix in CODE}
         self._publish()
         self._thread = threading.Thread(target=self._run, name="pt-view", daemon=True)
         self._thread.start()
@@ -212,8 +215,11 @@ class Renderer:
         changed = {path for path, facts in signatures.items() if self._signatures.get(path) != facts}
         self._signatures = signatures
         self._revision += bool(changed)
+        edited = {path for path in changed if self._is_edited(path)}
+        if changed and not edited:
+            self._publish()
         restarts = False
-        if changed.intersection(self._shown.files):
+        if edited.intersection(self._shown.files):
             try:
                 shown = self._source.read()
                 if self._context:
@@ -224,7 +230,7 @@ class Renderer:
             except (Error, ValueError, OSError) as error:
                 self._faults["scene"] = self._source.explained(error)
                 self._publish()
-        if any(path.suffix in SHADERS for path in changed.difference(self._shown.files)) and self._context:
+        if any(path.suffix in SHADERS for path in edited.difference(self._shown.files)) and self._context:
             try:
                 self._context.reload_shaders()
                 self._faults.pop("shaders", None)
@@ -233,7 +239,14 @@ class Renderer:
             except Error as error:
                 self._faults["shaders"] = str(error)
                 self._publish()
-        return restarts or bool(changed and not self._context)
+        return restarts or bool(edited and not self._context)
+
+    def _is_edited(self, path: pathlib.Path) -> bool:
+        """Whether more than comments of the file has changed. Lines of faults may move with comments alone."""
+        if path.suffix not in CODE:
+            return True
+        before, self._code[path] = self._code.get(path), code_of(path)
+        return bool(self._faults) or before != self._code[path]
 
     def _adopt(self, shown: Shown) -> None:
         """Keeps settings that the user has changed in the page."""
@@ -245,21 +258,22 @@ class Renderer:
         self._shown = shown
         self._signatures = self._look()
 
-
     def _publish(self, with_picture: bool = True) -> None:
-        pixels, values = self.frame.pixels, self.frame.values
+        pixels, values, spoilt = self.frame.pixels, self.frame.values, self.frame.spoilt
         facts: dict[str, Any] = {}
         context = self._context
         if context and self._count and with_picture:
             values = tuple(context.readback(quantity) for quantity in list(LAYERS.values())[:OF_SAMPLES])
             pixels = self._layer_pixels(context, values)
-            facts = {"rejected": context.stats().rejected_samples, "device": context.device.name}
+            rejected = context.stats().rejected_samples
+            spoilt = rejected_samples(context.film()) > 0 if rejected else None
+            facts = {"rejected": rejected, "spoilt": 0 if spoilt is None else int(spoilt.sum()), "device": context.device.name}
             if not self._moving:
                 estimate = context.error_estimate()
                 self._remember(estimate)
                 facts.update(facts_of(estimate), pivot=self._pivot(context))
         kept = {name: self.frame.state.get(name) for name in
-                ("error", "low", "high", "uncertain", "pivot", "rejected", "device")}
+                ("error", "low", "high", "uncertain", "pivot", "rejected", "spoilt", "device")}
         camera = self._camera
         self._emit({**kept, **facts, "name": self._source.path.name, "samples": self._count, "seconds": self._seconds, "playing": self._playing,
                     "moving": self._moving, "layer": self._layer, "history": list(self._history),
@@ -268,12 +282,12 @@ class Renderer:
                     "max_path_length": self._settings.max_path_length, "sampler": name_of(self._settings.sampler),
                     "estimator": name_of(self._settings.estimator), "revision": self._revision,
                     "verdict": self._built_in.verdict if self._built_in else "",
-                    "faults": [fault for text in self._faults.values() for fault in faults_of(text)]}, pixels, values)
+                    "faults": [fault for text in self._faults.values() for fault in faults_of(text)]}, pixels, values, spoilt)
 
-    def _emit(self, state: dict[str, Any], pixels: Array | None, values: tuple[Array, ...]) -> None:
+    def _emit(self, state: dict[str, Any], pixels: Array | None, values: tuple[Array, ...], spoilt: Array | None) -> None:
         if pixels is not None:
             state["height"], state["width"] = pixels.shape[:2]
-        self.frame = Frame(self.frame.number + 1, state, pixels, values)
+        self.frame = Frame(self.frame.number + 1, state, pixels, values, spoilt)
         self._published(self.frame)
 
     def _layer_pixels(self, context: Context, values: tuple[Array, ...]) -> Array:

@@ -8,7 +8,6 @@ import json
 import logging
 import pathlib
 import re
-import secrets
 import socket
 import threading
 import urllib.parse
@@ -21,6 +20,7 @@ from aiohttp import WSMsgType, http_exceptions, web
 from pt._camera import Camera
 from pt._exr import encode_exr
 from pt._files import regular, write_atomically
+from pt.view._address import Address, new_token
 from pt.view._frame import LAYERS, METHODS, Frame, name_of
 from pt.view._look import Look
 
@@ -65,13 +65,14 @@ class Server:
     files   files that the page may read and write, by name
     """
 
-    def __init__(self, files: Callable[[], dict[str, pathlib.Path]], port: int = 0) -> None:
+    def __init__(self, files: Callable[[], dict[str, pathlib.Path]], port: int = 0, token: str | None = None) -> None:
         self.show: Show | None = None
         self._files = files
-        self._token = secrets.token_urlsafe(18)
+        self._token = token or new_token()
         self._sockets: set[web.WebSocketResponse] = set()
         self._socket = socket.create_server(("127.0.0.1", port))
-        self.address = f"http://127.0.0.1:{self._socket.getsockname()[1]}/{self._token}/"
+        self.kept = Address(self._socket.getsockname()[1], self._token)
+        self.address = f"http://127.0.0.1:{self.kept.port}/{self._token}/"
         self._loop = asyncio.new_event_loop()
         self._news = asyncio.Event()
         self._is_ready = threading.Event()
@@ -192,6 +193,7 @@ class Server:
     async def _answer(self, page: Page, text: str) -> None:
         assert self.show
         connection = page.connection
+        message: Any = None
         try:
             message = json.loads(text)
             if not isinstance(message, dict):
@@ -218,7 +220,8 @@ class Server:
             else:
                 self.show.change(**changes_of(message))
         except (ValueError, TypeError, KeyError, ArithmeticError, OSError, RecursionError) as error:
-            await connection.send_json({"refused": f"{type(error).__name__}: {error}"})
+            text = str(error) if isinstance(error, ValueError) else f"{type(error).__name__}: {error}"
+            await connection.send_json({"refused": text, "fields": list(message) if isinstance(message, dict) else []})
 
     def _file(self, name: Any) -> pathlib.Path:
         files = self._files()
@@ -246,7 +249,9 @@ def changes_of(message: dict[str, Any]) -> dict[str, Any]:
             changes[name] = Camera._of_section(value)
         elif name == "size":
             width, height = (_whole(each, 1, MOST_PIXELS) for each in value)
-            changes[name] = width, _whole(height, 1, MOST_PIXELS // width)
+            if width * height > MOST_PIXELS:
+                raise ValueError(f"{width} x {height}: must have at most {MOST_PIXELS} pixels")
+            changes[name] = width, height
         elif name in ("playing", "moving"):
             changes[name] = value is True
         elif name == "layer" and value in LAYERS:

@@ -20,6 +20,7 @@ from pt.figures._accept import load
 from pt.figures._figure import Staged
 from pt.figures._files import write_scene
 from pt.figures._options import Options
+from pt.view._code import STRING_OR_COMMENT
 
 
 @dataclass
@@ -68,9 +69,7 @@ class SceneSource:
     def saved(self, camera: Camera) -> tuple[str, bytes]:
         with open(self.path, encoding="utf-8", opener=regular) as file:
             text = file.read()
-        comments = r"//[^\n]*|/\*.*?\*/"
-        blank = re.sub(rf'"(?:[^"\\\n]|\\.)*"|{comments}',
-                       lambda found: found[0] if found[0][0] == '"' else " " * len(found[0]), text, flags=re.DOTALL)
+        blank = STRING_OR_COMMENT.sub(lambda found: found[0] if found[0][0] == '"' else " " * len(found[0]), text)
         section = f'"camera": {json.dumps(camera._section())}'
         if found := re.search(r'"camera"\s*:\s*\{[^{}]*\}', blank):
             return self.path.name, (text[:found.start()] + section + text[found.end():]).encode()

@@ -1,12 +1,15 @@
 from __future__ import annotations
 
 import pathlib
+from collections.abc import Callable
 
 from pt._errors import Error
 from pt._film import Film
 from pt._files import Path
 from pt.figures._options import Options
-from pt.view._renderer import SHADERS, Renderer
+from pt.view._address import keep_address, kept_address
+from pt.view._code import SHADERS
+from pt.view._renderer import Renderer
 from pt.view._server import Server
 from pt.view._source import source_of
 from pt.view._still import Still
@@ -22,6 +25,7 @@ class View:
     shader_dir   kernels that replace the library's; the page has an editor for them and for the scene
     port         0 for a free port
     options      options of pt.figure, for particles
+    address_file keeps the address for the next start, readable for its user alone; None: each start has a new address
 
     The server listens only on 127.0.0.1. Everybody who knows `address` has full control. A notebook shows the view if
     the browser reaches that port. Raises Error, ValueError or OSError.
@@ -29,7 +33,7 @@ class View:
 
     def __init__(self, what: Path | Film, *, size: tuple[int, int] | None = None, samples: int = 65536,
                  device: str | None = None, shader_dir: Path | None = None, port: int = 0,
-                 options: Options | None = None) -> None:
+                 options: Options | None = None, address_file: Path | None = None) -> None:
         source = what if isinstance(what, Film) else source_of(pathlib.Path(what), options or Options())
         folder = None if shader_dir is None else pathlib.Path(shader_dir).resolve()
         scene = None if isinstance(source, Film) else source.path
@@ -41,7 +45,7 @@ class View:
             return found | {path.name: path for path in sorted(folder.iterdir())
                             if path.suffix in SHADERS and path.is_file() and not path.is_symlink()}
 
-        self._server = Server(files, port)
+        self._server = served(files, port, None if address_file is None else pathlib.Path(address_file))
         try:
             self._show: Still | Renderer
             if isinstance(source, Film):
@@ -62,3 +66,20 @@ class View:
 
     def _repr_html_(self) -> str:
         return f'<iframe src="{self.address}" style="width: 100%; height: 640px; border: 0"></iframe>'
+
+
+def served(files: Callable[[], dict[str, pathlib.Path]], port: int, address_file: pathlib.Path | None) -> Server:
+    """Another running view may have the kept port; then the address is a new one, and the file stays as it is."""
+    kept = address_file and kept_address(address_file)
+    if not kept:
+        server = Server(files, port)
+    else:
+        try:
+            server = Server(files, port or kept.port, kept.token)
+        except OSError:
+            if port:
+                raise
+            return Server(files)
+    if address_file:
+        keep_address(address_file, server.kept)
+    return server

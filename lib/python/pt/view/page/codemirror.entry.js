@@ -11,16 +11,8 @@ export {setDiagnostics} from "@codemirror/lint";
 export {tags} from "@lezer/highlight";
 export {EditorState, EditorView};
 
-const theme = EditorView.theme({
-  "&": {backgroundColor: "#1b1d20", color: "#e4e7ea", fontSize: "13px"},
-  ".cm-scroller": {fontFamily: "ui-monospace, monospace"},
-  ".cm-gutters": {backgroundColor: "#1b1d20", color: "#6b747e", border: "none"},
-  ".cm-activeLine": {backgroundColor: "#ffffff0a"},
-  ".cm-cursor": {borderLeftColor: "#7fc8f8"},
-}, {dark: true});
-
 // `keys` have priority.
 export const basic = keys => [
   lineNumbers(), lintGutter(), history(), drawSelection(), highlightActiveLine(), bracketMatching(), highlightSelectionMatches(),
-  indentUnit.of("    "), EditorState.tabSize.of(4), theme,
+  indentUnit.of("    "), EditorState.tabSize.of(4),
   keymap.of([...keys, indentWithTab, ...defaultKeymap, ...historyKeymap, ...searchKeymap])];

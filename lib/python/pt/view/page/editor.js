@@ -42,16 +42,24 @@ const language = StreamLanguage.define({
   tokenTable: {constant: tags.constant(tags.name), function: tags.function(tags.name)},
 });
 
+const theme = EditorView.theme({
+  "&": {backgroundColor: "var(--ground)", color: "var(--ink)", fontSize: "13px"},
+  ".cm-scroller": {fontFamily: "ui-monospace, monospace"},
+  ".cm-gutters": {backgroundColor: "var(--ground)", color: "var(--faint)", border: "none"},
+  ".cm-activeLine": {backgroundColor: "var(--active-line)"},
+  ".cm-cursor": {borderLeftColor: "var(--accent)"},
+}, {dark: matchMedia("(prefers-color-scheme: dark)").matches});
+
 const colors = syntaxHighlighting(HighlightStyle.define([
-  {tag: tags.comment, color: "#7d8794", fontStyle: "italic"},
-  {tag: tags.keyword, color: "#c792ea"},
-  {tag: tags.typeName, color: "#7fc8f8"},
-  {tag: tags.number, color: "#f2b279"},
-  {tag: tags.string, color: "#a5d6a7"},
-  {tag: tags.propertyName, color: "#7fc8f8"},
-  {tag: tags.meta, color: "#e58fb1"},
-  {tag: tags.constant(tags.name), color: "#f2d479"},
-  {tag: tags.function(tags.name), color: "#dce6f2"},
+  {tag: tags.comment, color: "var(--comment)", fontStyle: "italic"},
+  {tag: tags.keyword, color: "var(--keyword)"},
+  {tag: tags.typeName, color: "var(--type)"},
+  {tag: tags.number, color: "var(--number)"},
+  {tag: tags.string, color: "var(--string)"},
+  {tag: tags.propertyName, color: "var(--type)"},
+  {tag: tags.meta, color: "var(--meta)"},
+  {tag: tags.constant(tags.name), color: "var(--constant)"},
+  {tag: tags.function(tags.name), color: "var(--function)"},
 ]));
 
 export class Editor {
@@ -63,7 +71,7 @@ export class Editor {
     this.view = new EditorView({parent: $("text"), state: this.stateOf("")});
     $("file").replaceChildren(...names.map(name => new Option(name)));
     const last = decodeURIComponent(location.hash.slice(1));
-    $("file").value = [last, "phong.glsl", names[0]].find(name => this.has(name));
+    $("file").value = [last, "phong.glsl", "pathtrace.comp", names[0]].find(name => this.has(name));
     $("file").addEventListener("change", () => this.choose($("file").value));
     $("keep").addEventListener("click", () => this.keep());
     window.addEventListener("beforeunload", event => {
@@ -79,7 +87,7 @@ export class Editor {
 
   stateOf(text) {
     return EditorState.create({doc: text, extensions: [
-      basic([{key: "Mod-s", run: () => this.keep(), preventDefault: true}]), language, colors,
+      basic([{key: "Mod-s", run: () => this.keep(), preventDefault: true}]), language, theme, colors,
       EditorView.updateListener.of(update => update.docChanged && this.mark())]});
   }
 

@@ -7,7 +7,9 @@ let state = {};
 let pixels; // RGBA bytes
 let display; // exposure (a number or "auto"), tonemap, gamma (null: the sRGB curve)
 let camera; // the camera that was sent last
-let pointer;
+let pointer; // the place under the pointer, 0 to 1 across the picture
+let held; // the place that was clicked
+let isWhole = false;
 let asks = false;
 
 function send(message) {
@@ -46,14 +48,27 @@ function paint() {
     $("exposure").value = state.stops;
 }
 
-// Enlarges by an integer factor, so all pixels have the same size.
 function fit() {
   const stage = $("stage"), canvas = $("picture");
   const [width, height] = state.size;
-  let factor = Math.min(stage.clientWidth / width, stage.clientHeight / height);
-  factor = factor > 1 ? Math.floor(factor) : factor;
+  stage.classList.toggle("whole", isWhole);
+  stage.style.setProperty("--ratio", height / width);
+  const factor = isWhole ? 1 / devicePixelRatio : Math.min(stage.clientWidth / width, stage.clientHeight / height);
   canvas.style.width = `${width * factor}px`;
   canvas.style.height = `${height * factor}px`;
+  canvas.style.imageRendering = isWhole || factor * devicePixelRatio >= 2 ? "pixelated" : "auto";
+  $("fit").setAttribute("aria-pressed", !isWhole);
+  $("whole").setAttribute("aria-pressed", isWhole);
+  mark();
+}
+
+// Outlines the pixel that is held.
+function mark() {
+  const outline = held && `M${Math.floor(held.x * state.width)},${Math.floor(held.y * state.height)}h1v1h-1z`;
+  if (!pixels)
+    return;
+  $("marks").setAttribute("viewBox", `0 0 ${state.width} ${state.height}`);
+  $("marks").innerHTML = held ? `<path class="under" d="${outline}"/><path d="${outline}"/>` : "";
 }
 
 const percent = share => share == null ? "unknown" : `${(100 * share).toPrecision(3)}%`;
@@ -81,12 +96,20 @@ function tell() {
     $("camera").value = line(camera);
   const atLines = state.faults.filter(fault => editor?.has(fault.file));
   const loose = atLines.length ? [] : state.faults;
-  const rejected = state.rejected ? `${state.rejected} samples were left out: not finite, negative or too bright` : "";
+  const places = state.spoilt ? ` They are in ${state.spoilt} pixels, in magenta.` : "";
+  const rejected = state.rejected ? `${state.rejected} samples were left out: not finite, negative or too bright.${places}` : "";
   $("note").textContent = [...loose.map(fault => (fault.file ? `${fault.file}:${fault.line}: ` : "") + fault.text), rejected]
     .filter(Boolean).join("\n");
   editor?.tell(state.faults);
   editor?.look(state.revision);
   chart();
+}
+
+const refusalOf = field => document.querySelector(`[data-of=${CSS.escape(field)}]`);
+
+function ask(field, value) {
+  refusalOf(field).textContent = "";
+  send({[field]: value});
 }
 
 function show(input, value) {
@@ -123,9 +146,10 @@ function chart() {
 }
 
 function askPixel() {
-  if (pointer && !asks && pixels) {
+  const place = pointer ?? held;
+  if (place && !asks && pixels) {
     asks = true;
-    send({pixel: [Math.floor(pointer.x * state.width), Math.floor(pointer.y * state.height)]});
+    send({pixel: [Math.floor(place.x * state.width), Math.floor(place.y * state.height)]});
   }
 }
 
@@ -143,6 +167,12 @@ function tellPixel(pixel) {
   $("pixel").replaceChildren(Object.assign(document.createElement("i"), {style: `background: rgb(${r} ${g} ${b})`}),
                              ...parts.filter(Boolean).map(text => Object.assign(document.createElement("span"), {textContent: text})));
   $("pixel").dataset.value = JSON.stringify(pixel);
+}
+
+function hold(place) {
+  held = place;
+  mark();
+  askPixel();
 }
 
 let drag;
@@ -168,7 +198,15 @@ function watchPointers() {
     const [a, b] = [...down.values()];
     return b ? Math.hypot(a.x - b.x, a.y - b.y) : 0;
   };
+  const placeOf = event => {
+    const box = canvas.getBoundingClientRect();
+    const [x, y] = [(event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height];
+    return x >= 0 && x < 1 && y >= 0 && y < 1 ? {x, y} : undefined;
+  };
+  const clickPixels = 4; // shorter movements are clicks
+  let click;
   stage.addEventListener("pointerdown", event => {
+    click = down.size ? undefined : {x: event.clientX, y: event.clientY};
     if (!camera)
       return;
     stage.setPointerCapture(event.pointerId);
@@ -179,9 +217,11 @@ function watchPointers() {
   });
   stage.addEventListener("pointermove", event => {
     const box = canvas.getBoundingClientRect();
-    const [x, y] = [(event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height];
-    pointer = x >= 0 && x < 1 && y >= 0 && y < 1 ? {x, y} : undefined;
+    pointer = placeOf(event);
     askPixel();
+    if (click && Math.hypot(event.clientX - click.x, event.clientY - click.y) < clickPixels)
+      return;
+    click = undefined;
     if (!down.has(event.pointerId))
       return;
     const [before, apart] = [middle(), spread()];
@@ -196,11 +236,17 @@ function watchPointers() {
   });
   for (const name of ["pointerup", "pointercancel"])
     stage.addEventListener(name, event => {
+      if (click && name === "pointerup")
+        hold(placeOf(event));
+      click = undefined;
       down.delete(event.pointerId);
       if (!down.size)
         drag = undefined;
     });
-  stage.addEventListener("pointerleave", () => pointer = undefined);
+  stage.addEventListener("pointerleave", () => {
+    pointer = undefined;
+    askPixel();
+  });
   stage.addEventListener("contextmenu", event => event.preventDefault());
   stage.addEventListener("wheel", event => {
     event.preventDefault();
@@ -249,7 +295,7 @@ function begin() {
   const [width, height] = state.size;
   for (const part of [1, 2, 4, 8, 16])
     choice($("sizes"), part === 1 ? "full" : `1/${part}`,
-           () => send({size: [Math.max(Math.floor(width / part), 1), Math.max(Math.floor(height / part), 1)]}));
+           () => ask("size", [Math.max(Math.floor(width / part), 1), Math.max(Math.floor(height / part), 1)]));
   const redisplay = () => {
     const gamma = +$("gamma").value;
     display = {exposure: $("automatic").checked ? "auto" : +$("exposure").value, tonemap: $("curve").value,
@@ -264,10 +310,15 @@ function begin() {
   });
   for (const name of ["sampler", "estimator"])
     $(name).addEventListener("input", () => send({[name]: $(name).value}));
-  $("max_path_length").addEventListener("change", () => send({max_path_length: +$("max_path_length").value}));
+  $("max_path_length").addEventListener("change", () => ask("max_path_length", +$("max_path_length").value));
   for (const name of ["width", "height"])
-    $(name).addEventListener("change", () => send({size: [+$("width").value, +$("height").value]}));
+    $(name).addEventListener("change", () => ask("size", [+$("width").value, +$("height").value]));
   $("play").addEventListener("click", play);
+  for (const name of ["fit", "whole"])
+    $(name).addEventListener("click", () => {
+      isWhole = name === "whole";
+      fit();
+    });
   $("back").addEventListener("click", back);
   $("copy").addEventListener("click", () => {
     $("camera").select();
@@ -314,7 +365,7 @@ function connect() {
   socket.onmessage = event => {
     if (typeof event.data !== "string")
       return receive(event.data);
-    const {pixel, files, opened, text, refused} = JSON.parse(event.data);
+    const {pixel, files, opened, text, refused, fields} = JSON.parse(event.data);
     if (pixel)
       tellPixel(pixel);
     else if (files)
@@ -322,7 +373,7 @@ function connect() {
     else if (opened)
       editor.open(opened, text);
     else if (refused)
-      $("note").textContent = refused;
+      (fields.map(refusalOf).find(Boolean) ?? $("note")).textContent = refused;
   };
   socket.onclose = () => {
     $("progress").textContent = "pt view has ended, or cannot be reached";
