@@ -38,7 +38,7 @@ std::vector<Change> changes_by_pixel(const Halves &halves) {
     return changes;
 }
 
-// Blocks along one axis.
+// Overlapping blocks along one axis.
 struct Blocks {
     explicit Blocks(std::size_t pixels) : pixel_count(pixels), count((pixels + block_step - 1) / block_step) {}
 
@@ -55,7 +55,7 @@ struct Blocks {
     std::size_t count;
 };
 
-// Sorts by size, and returns how many of the first do no harm together.
+// Sorts changes by size. Returns the largest number of first changes that together do not raise the error (doubts.h).
 std::ptrdiff_t harmless_count(std::vector<Change> &changes, Measure measure) {
     constexpr double standard_errors = 2.0;
     std::ranges::stable_sort(changes, {}, [=](const Change &change) { return std::abs(change.*measure); });
@@ -71,7 +71,7 @@ std::ptrdiff_t harmless_count(std::vector<Change> &changes, Measure measure) {
     return harmless;
 }
 
-// The changes left do no harm by either measure.
+// Removes changes until the rest raises neither the error nor the relative error.
 void take_doubtful_out(std::vector<Change> &changes) {
     std::size_t before = 0;
     do {

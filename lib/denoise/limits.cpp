@@ -40,8 +40,8 @@ float limited(float move, float value, float reach, const Support &support) {
     return std::clamp(move, std::max(-reach, support.lowest - value), std::min(reach, support.highest - value));
 }
 
-// Clips the moves in the direction of `sign` to one length, so that sign * sum <= most. The sum is a concave, piecewise
-// linear function of this length, so Newton's method from 0 approaches the length from below.
+// Clips the moves in the direction of `sign` to a common length, so that sign * sum <= most. The sum is a concave,
+// piecewise linear function of this length, so Newton's method from 0 approaches the length from below.
 void shorten(std::vector<float> &moves, std::size_t channel, float sign, double most) {
     float longest = 0.0F;
     for (std::size_t longer_before = 0;;) {

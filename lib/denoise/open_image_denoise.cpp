@@ -43,7 +43,7 @@ public:
     void *(*new_device)(int type);
     void (*commit_device)(void *device);
     void (*release_device)(void *device);
-    int (*get_device_error)(void *device, const char **message); // also clears the error
+    int (*get_device_error)(void *device, const char **message); // clears the error
     void *(*new_filter)(void *device, const char *type);
     void *(*new_buffer)(void *device, std::size_t size);
     void (*write_buffer)(void *buffer, std::size_t offset, std::size_t size, const void *from);
@@ -83,7 +83,7 @@ pt_result result_of(int error) {
     }
 }
 
-// A null device stands for errors of device creation.
+// A null device means errors of device creation.
 void require_success(const Library &library, void *device) {
     const char *message = nullptr;
     const int error = library.get_device_error(device, &message);

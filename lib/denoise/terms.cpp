@@ -11,10 +11,10 @@ float mean_at(const Halves &halves, std::size_t index) {
     return 0.5F * (halves.first[index] + halves.second[index]);
 }
 
-// Estimates the square of the true value by D(A) D(B), since the square of S would include noise. Where a filter
-// spreads a lamp over dark pixels, this estimate is too large and would hide the error. The estimate is therefore at
-// most the square of the raw pixel or of four times the median of 3x3 pixels. The logarithm at edges is explained in
-// pixel_error.h.
+// Returns the weight of a squared error in the relative error. The square of the true value is estimated by D(A) D(B),
+// because the square of S would include noise. If a filter spreads a lamp over dark pixels, this estimate is too large
+// and would hide the error. So the estimate is at most the square of the raw pixel or of four times the median of 3x3
+// pixels. pixel_error.h explains the logarithm at edges.
 double relative_weight(const Halves &halves, std::size_t x, std::size_t y, std::size_t channel) {
     constexpr double most_above_median = 4.0;
     const std::size_t index = halves.index(x, y, channel);

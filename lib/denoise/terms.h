@@ -23,13 +23,14 @@ struct Terms {
 
     double limit_product() const { return (first_move - first_free) * (second_move - second_free); }
 
-    // The expected change of the squared error, with the faults of a right filter.
+    // The expected change of the squared error if the filter is right (combination.h).
     double change() const { return noise_change() * (2.0 * noise + noise_change()) + free_product() + limit_product(); }
 };
 
 Terms terms_at(const Halves &halves, std::size_t x, std::size_t y, std::size_t channel);
 
-// Returns the faults of a tile (combination.h). The factor 3 is calibrated: D(B), which estimates r, has noise of B.
+// Returns the faults of a tile (combination.h). The factor 3 is calibrated. It allows for the noise of D(B), which
+// stands for r.
 inline double faults(double free_products, double limit_products, double least) {
     const double of_filter = std::max(free_products, 0.0);
     const double of_limits = std::max(limit_products, 0.0);

@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::uint64_t first_level = 16;
 
-// Each tile takes at least 1 / floor_share of the mean number of samples. With fewer, a tile would stop before a sample
-// has hit its light.
+// Each tile takes at least 1 / floor_share of the mean number of samples. With fewer, a tile might stop before any
+// sample has hit its light.
 constexpr std::uint64_t floor_share = 2;
 
 constexpr double root_of_half = 0.70710678118654752440;
@@ -34,7 +34,7 @@ std::int32_t last_content_round(double gain) {
     return -2 * exponent + (fraction <= 0.5 ? 2 : fraction <= root_of_half ? 1 : 0);
 }
 
-// Sums of squared errors. The key is the last round in which the tiles need no samples.
+// Sums of squared errors of tiles, by the last round in which these tiles need no samples.
 using SquaresByRound = std::map<std::int32_t, double>;
 
 SquaresByRound by_content_round(std::span<const double> gains, std::span<const double> squares) {
@@ -52,10 +52,10 @@ SquaresByRound by_content_round(std::span<const double> gains, std::span<const d
 }
 
 // With stratified samples, squared errors fall about as N^-1.5. Doubling a tile's samples divides its squared error by
-// 2^1.5 and its gain by 2^2.5, which stands for five rounds.
+// 2^1.5 and its gain by 2^2.5. The bound falls by 2^2.5 in five rounds.
 double expected_sum(const SquaresByRound &squares, std::int32_t round) {
     constexpr std::int32_t rounds = 5; // rounds per doubling
-    constexpr std::int32_t halves = 3; // the exponent 1.5, in halves
+    constexpr std::int32_t halves = 3; // the exponent 1.5 in halves
     double sum = 0.0;
     for (const auto &[content, square] : squares)
         sum += square * power_of_halves(halves * std::max((round - content + rounds - 1) / rounds, 0));
@@ -72,8 +72,7 @@ bool is_level(std::uint64_t sample_count) {
     return sample_count >= first_level && std::has_single_bit(sample_count);
 }
 
-// The constant factor 1/2 is left out. The loops go row by row, because a division per tile would take longer than the
-// rest.
+// The loops go row by row, because a division per tile would take longer than the rest.
 std::vector<double> tile_gains(const TileSamples &samples, std::span<const double> squares) {
     std::vector<double> shares; // by set
     for (const SampleSet &set : samples.sets())
@@ -93,7 +92,7 @@ std::vector<double> tile_gains(const TileSamples &samples, std::span<const doubl
 }
 
 // For tiles with the variances v, sample counts in proportion to sqrt(v) reach the same error with mean(sqrt v)^2 /
-// mean(v) times the samples of equal counts. Rounding to powers of two costs up to an eighth.
+// mean(v) times as many samples as equal counts. Rounding to powers of two costs up to an eighth of this gain.
 bool are_worth_telling_apart(std::span<const double> gains) {
     constexpr double least_ratio = 1.2;
     double sum = 0.0;
@@ -125,7 +124,7 @@ AdaptiveRound round_of_lamps(std::span<const double> gains) {
     return {most > 0.0 ? last_content_round(most) : 0, 0};
 }
 
-// Skips rounds that are not expected to reach the target, because each round costs checks.
+// Skips rounds that are not expected to reach the target, because the checks of each round cost time.
 AdaptiveRound round_after(const AdaptiveRound &round, const TileSamples &samples, std::span<const double> squares,
                           std::span<const double> gains, double excess, bool sees_too_little) {
     const std::uint64_t pixels = std::uint64_t{samples.grid().width} * samples.grid().height;
@@ -140,7 +139,7 @@ AdaptiveRound round_after(const AdaptiveRound &round, const TileSamples &samples
         return next;
     }
     const std::int32_t content = std::max(round.number, by_round.begin()->first);
-    // The rest of the error is light that no sample has hit. The floor serves this light, and gains do not.
+    // The rest of the error is light that no sample has hit. Only the floor reduces this error.
     if (sees_too_little && excess <= 1.0) {
         next.number = content;
         return next;
@@ -185,7 +184,7 @@ std::optional<TileStep> AdaptivePlan::next(const TileSamples &samples, AdaptiveR
     return next_apart(samples, round);
 }
 
-// While all tiles have equal samples, the error is checked at the counts that a film without adaptive sampling has.
+// While all tiles have equal samples, the error is checked at the same counts as without adaptive sampling.
 std::optional<TileStep> AdaptivePlan::next_together(const TileSamples &samples, AdaptiveRound &round) const {
     const std::uint64_t count = samples.least();
     if (samples.even() && is_level(count) && are_worth_telling_apart(tile_gains(samples, film_.squares())))
@@ -197,8 +196,8 @@ std::optional<TileStep> AdaptivePlan::next_together(const TileSamples &samples, 
                     [goal](std::uint32_t) { return goal; }};
 }
 
-// A round does not end while a tile must wait for another call. If all tiles that want samples are at their final
-// limit, the tiles with the fewest samples take more.
+// A round does not end while a tile must wait for another call. If all tiles that want samples have counts_.limit, the
+// tiles with the fewest samples take more.
 std::optional<TileStep> AdaptivePlan::next_apart(const TileSamples &samples, AdaptiveRound &round) const {
     const std::vector<double> squares = film_.squares();
     const std::vector<double> gains = tile_gains(samples, squares);

@@ -1,8 +1,7 @@
 // Decides which tiles of a film take more samples. A tile's number of samples per pixel is a level: 16, 32, 64, .... In
-// each round, tiles double their samples while the expected gain per added sample exceeds a bound. The bound falls from
-// round to round until the image's error is small enough.
-//
-// A round leaves each tile at the first level whose gain is at most the bound. The order of the tiles does not matter.
+// each round, a tile doubles its samples while its gain, the expected decrease of the squared error per added sample,
+// exceeds a bound. The bound falls from round to round until the image's error is small enough. The order of the tiles
+// does not matter.
 #pragma once
 
 #include "lib/film/error_estimate.h"
@@ -21,23 +20,23 @@ namespace pt {
 std::uint64_t next_level(std::uint64_t sample_count);
 bool is_level(std::uint64_t sample_count);
 
-// Returns for each tile the expected decrease of the squared error per added sample, or 0 if it is unknown. `squares`
-// has the expected sum of squared relative errors of each tile.
+// Returns the gain of each tile up to a constant factor, or 0 if it is unknown. `squares` has the expected sum of
+// squared relative errors of each tile.
 std::vector<double> tile_gains(const TileSamples &samples, std::span<const double> squares);
 
 bool are_worth_telling_apart(std::span<const double> gains);
 
-// Returns the tiles that double their samples in this round. Each tile's count must be a level. `lamps` has the samples
-// per pixel that each tile needs to hit lamps smaller than a pixel.
+// Returns the tiles that double their samples in this round. The count of each tile must be a level. `lamps` has the
+// samples per pixel with which each tile hits lamps smaller than a pixel.
 std::vector<std::uint32_t> wanting_tiles(const TileSamples &samples, std::span<const double> gains,
                                          std::span<const std::uint64_t> lamps, const AdaptiveRound &round);
 
-// The first round of a film that needs more samples only for small lamps.
+// Returns the first round of a film that needs more samples only for small lamps.
 AdaptiveRound round_of_lamps(std::span<const double> gains);
 
 // Returns the next round in which a tile wants samples. `excess` is (error / target)^2, infinite if the error is
 // unknown. `sees_too_little` means that much of the error is light that no sample has hit (PT_UNCERTAIN_UNSEEN). Then
-// the tiles with the fewest samples take more, and `excess` leaves out this light, so it may be at most 1.
+// `excess` does not include this light, and the tiles with the fewest samples take more.
 AdaptiveRound round_after(const AdaptiveRound &round, const TileSamples &samples, std::span<const double> squares,
                           std::span<const double> gains, double excess, bool sees_too_little);
 
@@ -46,7 +45,7 @@ struct TileStep {
     std::function<std::uint64_t(std::uint32_t)> goal; // samples per pixel
 };
 
-// Functions that read the film. All of them are slow.
+// Functions that read the film. All are slow.
 struct FilmLooks {
     std::function<ErrorEstimate()> error;
     std::function<std::vector<double>()> squares;
@@ -54,14 +53,14 @@ struct FilmLooks {
     std::function<std::vector<std::uint64_t>()> samples_for_lamps;
 };
 
-// The most samples that a pixel may take.
+// The most samples of a pixel.
 struct MostSamples {
     std::uint64_t most;
-    std::uint64_t limit; // over all calls
+    std::uint64_t limit; // limit over all calls
 };
 
-// While tiles have equal samples, the error is checked at fixed counts. Later, a tile's need depends only on its own
-// sums and the round. Interruptions and limits therefore do not change the film.
+// While tiles have equal samples, the error is checked at fixed counts. Later, whether a tile needs samples depends
+// only on its own sums and the round. So interruptions do not change the film.
 class AdaptivePlan {
 public:
     AdaptivePlan(double target_error, const MostSamples &counts, FilmLooks film) :
@@ -70,8 +69,8 @@ public:
         film_(std::move(film)) {}
 
     // Returns no value if the film has the target error and enough samples for the lamps in view. Returns no tiles if
-    // no tile may take more samples. The goals refer to `samples`, which must outlive them. After the end of a round,
-    // `round` is the next one.
+    // no tile may take more samples. The goals refer to `samples`, which must outlive them. Sets `round` to the next
+    // round when a round ends.
     std::optional<TileStep> next(const TileSamples &samples, AdaptiveRound &round) const;
 
 private:

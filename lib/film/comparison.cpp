@@ -22,7 +22,7 @@ constexpr std::uint32_t least_side = 16;
 constexpr std::uint32_t reported_side = 32; // side of the regions of smallest_tile_change
 
 // Differences up to this fraction of the light count as rounding errors. A lobe 2^x with x >= -100 has an error of up
-// to 100 ln 2 * 18 u from x, plus 203 u of the power (lib/kernel/accuracy.cpp). Together this is 8.7e-5.
+// to 100 ln 2 * 18 u from x and 203 u from the power (accuracy.cpp, u = 2^-24). The sum is 8.7e-5.
 constexpr double rounding_share = 1e-4;
 
 // P(|sum of e_i d_i| >= z sqrt(sum of d_i^2)) <= 2 * 3.178 P(normal >= z) for random signs e_i (Bentkus and
@@ -62,7 +62,7 @@ bool may_miss_lamps(const pt_compared_image &image) {
     return finds_lamps_by_chance(image.estimator, some_length);
 }
 
-// Whether a lack of light in each image is evidence.
+// Whether it is evidence that an image is darker. An estimator that finds lamps by chance may have missed light.
 struct Knowledge {
     bool of_first;
     bool of_second;
@@ -131,17 +131,17 @@ std::vector<Level> levels_of(const pt_compare_info &info) {
     return levels;
 }
 
-// Returns how much more one sample counts in the image that has fewer samples.
+// Returns the larger number of samples divided by the smaller one.
 double sample_ratio(const pt_compare_info &info) {
     const double first = info.first.min_samples;
     const double second = info.second.min_samples;
     return first > 0.0 && second > 0.0 ? std::max(first / second, second / first) : 1.0;
 }
 
-// The largest differences of single pixels. A region may lack light of this size by chance.
+// The largest differences of single pixels. By chance a region may lack a rare sample that makes such a difference.
 struct Events {
-    double absolute = 0.0; // largest difference of pixels with more than twice the light
-    double relative = 0.0; // largest difference of other pixels, as a fraction of the light
+    double absolute = 0.0; // largest difference of pixels that differ by more than their darker value
+    double relative = 0.0; // largest difference of other pixels, as a fraction of the darker value
 
     void add_pixel(double first, double second, double ratio) {
         const double event = ratio * std::abs(first - second);
@@ -170,14 +170,14 @@ ChannelEvents largest_events(const pt_compare_info &info) {
     return events;
 }
 
-// A difference, of which the absence of rare events may explain a part.
+// A difference. The absence of rare events may explain a part of it.
 struct Difference {
     double z;        // difference in standard deviations
     double event;    // largest event in standard deviations
     double skewness; // towards the other sign, >= 0
 
-    // Returns an upper bound for the probability of this difference in equal light. Noise explains up to 1 / event
-    // standard deviations of z. Rare events that are absent by chance explain the rest.
+    // Returns an upper bound for the probability of this difference if the light is equal. Up to 1 / event standard
+    // deviations are attributed to noise, and the rest to rare events that are absent by chance.
     double probability() const {
         const double by_noise = event > 0.0 ? std::min(z, 1.0 / event) : z;
         const double by_events = event > 0.0 ? (z - by_noise) / event : 0.0;
@@ -203,9 +203,9 @@ public:
         return excess > 0.0 ? probability_of(excess, deviation_, event_, skewness(sign), met) : 1.0;
     }
 
-    // Returns the smallest change, as a fraction of the light, that is found with 99% probability at this rate. If the
-    // second image is 1 + a times as bright as the first, noise and events grow by up to 1 + a, and the squared
-    // differences grow by a^2 times the squared light.
+    // Returns the smallest change, as a fraction of the light, that is found with 99% probability at this rate. If
+    // light changes by the factor 1 + a, noise and events grow by up to the same factor, and the sum of squared
+    // differences grows by a^2 times the sum of squared light.
     double smallest_change(double rate) const {
         const double worst_skewness = std::max(skewness(-1.0), skewness(1.0));
         const double met = std::min(met_by_first(), met_by_second());
@@ -228,8 +228,8 @@ public:
     }
 
 private:
-    // A lower bound for the number of events in an image, from its pixels without light. The bound is 0 if a lack of
-    // light is no evidence.
+    // A lower bound for the number of events in an image, from the number of its pixels without light. It is 0 if a
+    // darker image is no evidence.
     double met_by_first() const { return knowledge_.of_first ? events_in(sums_.first_lit) : 0.0; }
     double met_by_second() const { return knowledge_.of_second ? events_in(sums_.second_lit) : 0.0; }
     double events_in(double lit) const { return pixel_count_ * -std::log1p(-lit / pixel_count_); }
@@ -238,8 +238,8 @@ private:
         return deviation_ > 0.0 ? std::max(0.0, -sign * sums_.cubes / std::pow(deviation_, 3.0)) : 0.0;
     }
 
-    // `met` is the number of events in the darker image. The skewness of k events is 1 / sqrt(k). With this skewness no
-    // difference has a lower bound than e^(-k / 2 + k / 3).
+    // `met` is the number k of events in the darker image. Their skewness is 1 / sqrt(k), with which
+    // Difference::probability() is at least e^(-k / 2 + k / 3).
     static double probability_of(double excess, double deviation, double event, double skewness, double met) {
         const Difference difference{excess / deviation, event / deviation, skewness};
         return std::max(difference.probability(), std::exp(-met / 6.0));

@@ -13,6 +13,7 @@ struct Comparison {
     std::vector<pt_compared_region> regions; // in pt_compare's order
 };
 
+// `info` must be valid, with its defaults filled in.
 Comparison compare_light(const pt_compare_info &info);
 
 std::uint32_t region_count_of(const pt_compare_info &info);

@@ -20,19 +20,19 @@ constexpr double much_unseen = 0.2;
 // An estimate is uncertain if rarer light could multiply the squared error by this. Calibrated.
 constexpr double much_more = 3.0;
 
-// Plain Halton points are the same in all pixels. Errors of neighbors are then correlated, so estimates scatter more.
+// Halton points are the same in all pixels, so errors of neighbors are correlated and estimates have a larger variance.
 // Calibrated.
 double margin(std::uint32_t sampler) {
     return sampler == PT_SAMPLER_HALTON ? 1.2 : 1.0;
 }
 
-// The difference of the parts is too small at sample counts where quasi-random errors fall more slowly than N^-1/2.
+// At sample counts where quasi-random errors fall more slowly than N^-1/2, the difference of the parts is too small.
 // Calibrated.
 double margin_of_sequence(std::uint32_t sampler) {
     return sampler == PT_SAMPLER_RANDOM ? 1.0 : 1.145;
 }
 
-// The number of equal squares whose sum would be equally uncertain.
+// The number of equal squares whose sum would have the same relative variance.
 double pixel_count(const ErrorSquares &squares) {
     return squares.sum > 0.0 ? squared(squares.sum) / squares.of_pixels : infinity;
 }
@@ -44,18 +44,16 @@ void add_squares(ErrorSquares &to, const ErrorSquares &other, double factor = 1.
     to.times_tile_sizes += factor * other.times_tile_sizes;
 }
 
-// Corrects the relative errors of pixels that only one half of the samples hit. Let w be the expected number of hits in
-// a pixel, and q = e^(-w / 2). The light is hit by neither half in a fraction q^2 of the pixels, by one half in 2 q (1
-// - q), and by both in (1 - q)^2. If b is the ratio of pixels hit by both to pixels hit by one, w = 2 ln(1 + 2 b). A
-// pixel with mean T that one half hit has the expected value w T, so its relative error is 1 / w times the error
-// relative to T.
+// Corrects the relative errors of light that samples of only one half hit in a pixel. Let w be the expected number of
+// hits in a pixel, and q = e^(-w / 2). Then neither half hits the light in a fraction q^2 of the pixels, one half in 2
+// q (1 - q), and both in (1 - q)^2. If b is the ratio of the last two, w = 2 ln(1 + 2 b). A pixel with mean T that one
+// half hit has the expected value w T. So its error relative to this value is 1 / w times its error relative to T.
 double square_by_hits(double met_once, double met_again) {
     const double hits = 2.0 * std::log1p(2.0 * met_again / (met_once + 1.0));
     return std::max(1.0, 1.0 / squared(hits));
 }
 
-// Values that one half hit have two estimates. The first is relative to the other half and the surroundings, and the
-// second uses square_by_hits(). The smaller estimate counts.
+// Light that one half hit has two estimates: met_once, and as_lamps times square_by_hits(). The smaller one counts.
 ErrorSquares relative_squares(const TileErrors &all, double met_again) {
     const double factor = square_by_hits(all.as_lamps.sum / channels, met_again);
     ErrorSquares squares = all.relative_square;
@@ -68,15 +66,15 @@ ErrorSquares relative_squares(const TileErrors &all, double met_again) {
 
 } // namespace
 
-// The root of a sum over n pixels has a relative deviation of about 1 / (2 sqrt(n)). The added fraction is a little
-// larger, because understated errors do more harm. Calibrated.
+// The root of a sum over n pixels has a relative standard deviation of about 1 / (2 sqrt(n)). The added fraction is a
+// little larger, because understated errors do more harm. Calibrated.
 double share_added(double pixel_count) {
     return 0.6 / std::sqrt(pixel_count) + 1.2 / pixel_count;
 }
 
-// The logarithm of the root of a sum of m squared normal variables has the deviation 1 / sqrt(2 m). Since E x^4 = 3, m
-// = 3 n such squares count as n pixels. The true error scatters as much as its estimate, so the ratio of both has the
-// deviation 1 / sqrt(3 n).
+// The logarithm of the root of a sum of m squared normal variables has the standard deviation 1 / sqrt(2 m). Since E
+// x^4 = 3, pixel_count() makes n = m / 3 of them. The true error varies as much as its estimate, so the ratio of both
+// has the standard deviation 1 / sqrt(3 n).
 double spread_of_pixels(double pixel_count) {
     return std::exp(normal_95 / std::sqrt(3.0 * pixel_count));
 }
@@ -112,8 +110,8 @@ bool is_check(std::uint64_t sample_count) {
 }
 
 double exaggeration(std::uint32_t sampler) {
-    // If the mean squared error falls as N^-p, a quarter of the squared difference between both halves is expected to
-    // be 2^p - 1 times this error: 1 for random points (p = 1), and 7 for scrambled nets at best (p = 3, Owen 1997).
+    // If the mean squared error falls as N^-p, the expected square of half the difference between both halves is 2^p -
+    // 1 times this error: 1 for random points (p = 1), and at most 7 for scrambled nets (p = 3, Owen 1997).
     return sampler == PT_SAMPLER_RANDOM ? 1.0 : std::sqrt(7.0);
 }
 
@@ -134,8 +132,8 @@ void ErrorEstimator::add(const TileErrors &tiles) {
     all_.rejected += tiles.rejected;
 }
 
-// The variance of a sum S of n values is estimated by the sum over tiles of (s - c S / n)^2, if a tile has c values
-// with the sum s.
+// The variance of a sum S of n values is estimated by the sum over tiles of (s - c S / n)^2, where s is the sum of a
+// tile's c values.
 Interval ErrorEstimator::root_mean(const ErrorSquares &squares, double other_squares, bool uncertain) const {
     const bool shows_nothing = squares.sum + other_squares == 0.0;
     if (!std::isfinite(squares.sum) || (shows_nothing && uncertain))
@@ -156,8 +154,8 @@ Interval ErrorEstimator::root_mean(const ErrorSquares &squares, double other_squ
             estimate * spread};
 }
 
-// The number of pixels that both parts hit has a deviation of about its square root. If lamps are found by chance, this
-// number shows nothing about rarer light and is not used.
+// The number of pixels where both parts hit light has a standard deviation of about its square root. It is not used if
+// lamps are found by chance, because it then tells nothing about rarer light.
 ErrorEstimate ErrorEstimator::result() const {
     const double again = all_.met_again / channels;
     const bool by_chance = conditions_.finds_lamps_by_chance;

@@ -27,10 +27,11 @@ inline constexpr std::uint32_t min_estimate_samples = 16;
 // 95% of a normal distribution are within this many standard deviations.
 inline constexpr double normal_95 = 1.96;
 
+// An estimate from fewer equal pixels is uncertain. Calibrated.
 inline constexpr double few_pixels = 4.0;
 
-// Both take an effective number of pixels. share_added() is the fraction to add to an estimate. spread_of_pixels() is
-// the factor between the estimate and its bounds.
+// Both functions take an effective number of pixels. share_added() is the fraction to add to an estimate.
+// spread_of_pixels() is the factor between the estimate and its bounds.
 double share_added(double pixel_count);
 double spread_of_pixels(double pixel_count);
 
@@ -41,11 +42,11 @@ ErrorEstimate unknown_error();
 
 pt_error_estimate stated(const ErrorEstimate &error);
 
-// Whether rejected samples make the error unknown. They may be 2^20 times as bright as the brightest emission
+// Whether rejected samples make the error unknown. They are more than 2^20 times as bright as the brightest emission
 // (FILM_MAX_EXPONENT in gpu_layout.h), so one in 2^20 samples may outweigh all others.
 bool hides_error(std::uint64_t rejected_samples, std::uint64_t samples);
 
-// The counts at which the error is checked: 16, then four per doubling.
+// The error is checked at 16 samples, and then four times per doubling.
 std::uint64_t next_check(std::uint64_t sample_count);
 bool is_check(std::uint64_t sample_count);
 

@@ -14,7 +14,7 @@ namespace pt {
 
 namespace {
 
-// A larger tile must be a single row. cut_along() copies whole tiles, which take up to 7 MB.
+// A larger tile must be a single row. So cut_along() copies tiles of at most 7 MB.
 constexpr std::uint32_t most_tile_pixels = 1U << 16;
 
 std::string where(const Rectangle &pixels) {
@@ -61,7 +61,7 @@ std::vector<FilmTile> Film::list() const {
     return tiles;
 }
 
-// Throws PT_ERROR_INCOMPATIBLE if a pixel has a common sample in both films. `map` is made from `others`.
+// Throws PT_ERROR_INCOMPATIBLE if both films have the same sample of a pixel. `map` must be the map of `others`.
 void Film::require_disjoint(const std::vector<FilmTile> &others, const TileMap &map) const {
     for (const Tile &own : tiles_)
         for (const TileMap::Piece &piece : map.cut(own.pixels))
@@ -69,7 +69,8 @@ void Film::require_disjoint(const std::vector<FilmTile> &others, const TileMap &
                 require_apart(others[*piece.tile].samples, own.samples, where(piece.pixels));
 }
 
-// Cuts each tile into pieces that are within one tile of the map or outside all. Copies only one tile at a time.
+// Cuts each tile into pieces that are within one tile of the map or outside all. Copies one tile at a time, to save
+// memory.
 void Film::cut_along(const TileMap &map) {
     const std::size_t count = tiles_.size();
     for (std::size_t i = 0; i < count; ++i) {
@@ -98,8 +99,8 @@ std::vector<Film::Tile> Film::outside(const TileMap &map, std::vector<Tile> tile
     return found;
 }
 
-// Adds the pixels that both tiles have. `samples` is the union of their samples. If a tile's split is not the union's,
-// all of the tile's samples are on one side of the union's split.
+// Adds the pixels that both tiles have. `samples` is the union of their samples. A tile whose split differs from the
+// split of the union has all its samples on one side of the latter.
 void Film::add_to(Tile &tile, const Tile &other, SampleSet samples) noexcept {
     const std::uint64_t split = split_of(samples.hull());
     const std::uint64_t others_split = split_of(other.samples.hull());
@@ -235,7 +236,7 @@ void Film::read_rows_from(std::uint32_t first_row, PixelSums &sums) const {
         sums.copy(rows, tile.sums, tile.pixels);
 }
 
-// If pixels of a tile have different samples, the estimate assumes the fewest and caches no errors.
+// If pixels of a tile have different samples, the estimate assumes the smallest number and caches no errors.
 ErrorEstimate Film::error() const {
     if (const std::optional<TileSamples> samples = tile_samples(header_.tiles, bounds_))
         return error(*samples, errors_);

@@ -29,10 +29,11 @@ public:
 
     const Rectangle &bounds() const { return bounds_; }
 
-    // Adds another film. Throws PT_ERROR_INCOMPATIBLE if the films are of different pictures or have a common sample.
-    // After an exception this film is unchanged.
+    // Throws PT_ERROR_INCOMPATIBLE if the films are of different pictures or have the same sample of a pixel. After an
+    // exception this film is unchanged.
     void add(Film other);
 
+    // `bytes` must have the size that the layout of header() gives.
     void write(std::span<std::byte> bytes) const;
 
     void stream(const FilmStream::Receive &receive) const;
@@ -53,7 +54,7 @@ public:
     // Throws PT_ERROR_INCOMPATIBLE if pixels of one tile of the grid over the bounds have different samples.
     TileSamples samples_by_tile() const;
 
-    // Samples per pixel that hit all small lamps in view, or 0.
+    // Returns the samples per pixel that hit all small lamps in view, or 0.
     std::uint32_t samples_for_lamps() const;
 
     std::optional<TileStep> plan(const TileSamples &samples, double target_error, std::uint64_t most);

@@ -36,9 +36,10 @@ private:
     std::uint64_t size_bytes_;
 };
 
+// Throws PT_ERROR_INVALID_ARGUMENT if the caller's memory is too small.
 void require_room(std::uint64_t size_bytes, std::uint64_t needed);
 
-// write() is needed for all pixels of all tiles, then end().
+// The caller calls write() for all pixels of all tiles, then end().
 class FilmWriter {
 public:
     FilmWriter(const FilmHeader &header, std::span<std::byte> bytes);
@@ -51,7 +52,8 @@ private:
     std::span<std::byte> bytes_;
 };
 
-// Passes on a film's bytes in pieces of at most a megabyte. Each stored plane needs add(), tile by tile, then end().
+// Passes on a film's bytes in pieces of at most a megabyte. The caller calls add() for each stored plane, tile by tile,
+// then end().
 class FilmStream {
 public:
     using Receive = std::function<void(std::span<const std::byte>)>;

@@ -22,7 +22,7 @@ std::optional<std::string> value_in(const FilmIdentity &identity, const std::str
     return fact == identity.end() ? std::nullopt : std::optional(fact->value);
 }
 
-// Reads a number in canonical spelling. On failure records a violation and returns `least`.
+// Reads a number that has no leading zeros or signs. On failure records a violation and returns `least`.
 template <typename Number>
 Number number_in(const FilmIdentity &identity, const char *name, Number least, Number most, Violations &violations) {
     const std::string text = value_in(identity, name).value_or("nothing");

@@ -53,7 +53,7 @@ struct AdaptiveRound {
     static constexpr std::int32_t none = std::numeric_limits<std::int32_t>::min();
 
     std::int32_t number = none; // the bound of gains is 2^(-number / 2)
-    std::uint64_t floor = 0;    // least samples per pixel
+    std::uint64_t floor = 0;    // minimum samples per pixel
 
     bool operator==(const AdaptiveRound &) const = default;
 };
@@ -66,14 +66,14 @@ inline AdaptiveRound later_of(const AdaptiveRound &a, const AdaptiveRound &b) {
 struct LampSquare {
     std::uint32_t x;
     std::uint32_t y;
-    std::uint32_t samples; // per pixel; hits the smallest lamp
+    std::uint32_t samples; // samples per pixel that hit the smallest lamp
 
     bool operator==(const LampSquare &) const = default;
 };
 
 inline constexpr std::uint32_t lamp_square = 8;
 
-// Whether samples that hit a surface are counted.
+// Whether the film counts samples that hit a surface.
 bool has_coverage(const FilmIdentity &identity);
 
 // Sorts by rows, and keeps the largest `samples` of equal squares.

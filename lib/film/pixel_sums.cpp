@@ -54,7 +54,7 @@ WordAndCarry difference_of(std::uint32_t a, std::uint32_t b, std::uint32_t borro
     return {difference - borrow, static_cast<std::uint32_t>(a < b) | static_cast<std::uint32_t>(difference < borrow)};
 }
 
-// Goes plane by plane, because carries go from one word of a sum to the next.
+// Works plane by plane, because carries go from one word of a sum to the next.
 template <typename Operation>
 void combine(const PartWords<std::uint32_t> &to, const PartWords<const std::uint32_t> &from, std::size_t pixel_count,
              const Operation &operation) noexcept {

@@ -26,7 +26,7 @@ void add_words(const PartWords<std::uint32_t> &to, const PartWords<const std::ui
 void subtract_words(const PartWords<std::uint32_t> &to, const PartWords<const std::uint32_t> &from,
                     std::size_t pixel_count) noexcept;
 
-// Planes of both parts, and with coverage the plane FILM_COVERED.
+// The number of planes in both parts, and with coverage one more.
 constexpr std::size_t film_planes(bool has_coverage) {
     return std::size_t{gpu::FILM_COVERED} + (has_coverage ? 1 : 0);
 }
@@ -64,19 +64,19 @@ public:
     void add_part(std::uint32_t to_part, std::size_t to_first, const PixelSums &from, std::uint32_t from_part,
                   std::size_t first, std::size_t count) noexcept;
 
-    // The same for the coverage, if both have it.
+    // Adds the coverage of the same pixels, if both objects have it.
     void add_coverage(std::size_t to_first, const PixelSums &from, std::size_t first, std::size_t count) noexcept;
 
     // Adds the other part to this part and clears the other part.
     void fold_into(std::uint32_t part, std::size_t first, std::size_t count) noexcept;
 
-    // Converts the sums of `samples` to the split of a larger set.
+    // Moves sums between the parts, so that `samples` are split at `split`, the split of a larger set.
     void split_for(const SampleSet &samples, std::uint64_t split, std::size_t first, std::size_t count) noexcept;
 
-    // Copies the planes that both have.
+    // Copies the planes that both objects have.
     void copy(const PixelSums &from, std::size_t first, std::size_t count, std::size_t to_first) noexcept;
 
-    // Copies the pixels that two rectangles of an image have in common: `own` of this object and `of_from` of `from`.
+    // Copies the common pixels of two rectangles of an image: `own` for this object and `of_from` for `from`.
     void copy(const Rectangle &own, const PixelSums &from, const Rectangle &of_from) noexcept;
 
     // Numbers of accepted and rejected samples in each part.
@@ -85,8 +85,8 @@ public:
     // Whether this many samples can have these sums.
     bool holds(const PartCounts &expected) const;
 
-    // R, G and B of each pixel. `quantity` is a PT_QUANTITY_* that comes from samples. PT_QUANTITY_COVERAGE requires
-    // has_coverage(). `unit` is the radiance of one unit.
+    // Returns R, G and B of each pixel. `quantity` is a PT_QUANTITY_* that comes from samples. PT_QUANTITY_COVERAGE
+    // requires has_coverage(). `unit` is the radiance of one unit.
     std::vector<float> values(std::uint32_t quantity, double unit) const;
 
     bool operator==(const PixelSums &) const = default;
@@ -117,7 +117,7 @@ private:
 
     const PixelSums &sums_;
     int exponent_;
-    PartQuotients quotients_; // cached, because most pixels have equal counts
+    PartQuotients quotients_; // kept between pixels, because most have equal counts
 };
 
 // Throws PT_ERROR_INTERNAL if the counts differ, which means that a driver lost work.

@@ -32,10 +32,10 @@ public:
 
     float mean(WideSum sum_a, WideSum sum_b) const { return of_all_.quotient(sum_a + sum_b); }
 
-    // Requires samples in both parts. gpu::ErrorDivisor makes the standard error from the difference.
+    // Both parts must have samples. gpu::ErrorDivisor explains the standard error.
     struct Difference {
         float standard_error;
-        float lesser; // the smaller of both parts' means
+        float lesser; // lower mean of the two parts
     };
     Difference difference(WideSum sum_a, WideSum sum_b) const;
 

@@ -42,7 +42,7 @@ SampleRange SampleSet::hull() const {
     return empty() ? SampleRange{} : SampleRange{ranges_.front().first, ranges_.back().end};
 }
 
-// Goes through the ranges once, because films may have very many.
+// Walks both lists of ranges once, because films may have very many ranges.
 std::optional<SampleRange> SampleSet::overlap(const SampleSet &other) const {
     auto own = ranges_.begin();
     for (const SampleRange &range : other.ranges_) {
@@ -99,7 +99,8 @@ std::string text_of(const SampleSet &samples) {
     return text;
 }
 
-// The index in (first, last] with the most trailing zeros has the common leading bits of both, then a one, then zeros.
+// The index in (first, last] with the most trailing zeros has the common leading bits of both ends, then a one, then
+// zeros.
 std::uint64_t split_of(const SampleRange &hull) {
     if (hull.count() < 2)
         return multiple_from(hull.end, min_part);

@@ -44,6 +44,7 @@ public:
 
     SampleRange next_missing(std::uint64_t from) const;
 
+    // The set must not have these samples yet.
     void add(const SampleRange &range);
     void add(const SampleSet &other);
 
@@ -60,18 +61,20 @@ static_assert(gpu::FILM_PARTS == 2);
 
 using PartCounts = std::array<std::uint64_t, gpu::FILM_PARTS>;
 
-// Returns the index with the most trailing zero bits among all that have samples on both sides, if it is a multiple of
-// 8. Otherwise returns the next multiple of 8 after the last sample, because fewer than 8 samples hardly show an error.
+// Returns the index with the most trailing zero bits among all that have samples on both sides, if this index is a
+// multiple of 8. Otherwise returns the next multiple of 8 after the last sample, because parts of fewer than 8 samples
+// hardly show an error.
 //
-// The index is unique: between any two indices with equally many zeros there is one with more. Each added film
-// therefore has the split of the sum, or is on one side of the split, so two parts are enough.
+// The index is unique, because between two indices with equally many zeros lies one with more. So each added film
+// either has the split of the sum or lies on one side of it, and two parts are enough.
 //
 // The split of [0, 2^k) is 2^(k - 1). Both halves are among the best sets of low-discrepancy sequences.
 std::uint64_t split_of(const SampleRange &hull);
 
 PartCounts part_counts(const SampleSet &samples);
 
-// `before` is the hull of the earlier samples. `split` is the split with the new sample.
+// Whether the sample is the first of its part. `before` is the hull of the earlier samples, `split` the split of the
+// hull that includes the sample.
 bool begins_part(const SampleRange &before, std::uint64_t split, std::uint64_t sample);
 
 } // namespace pt

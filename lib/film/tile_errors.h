@@ -1,5 +1,4 @@
-// Expected squared errors of a tile's pixels (shaders/pixel_error.h). Devices compute the same in estimate.comp. No
-// tile depends on other tiles.
+// Expected squared errors of a tile's pixels (shaders/pixel_error.h). Devices compute the same in estimate.comp.
 #pragma once
 
 #include "lib/film/pixel_sums.h"
@@ -18,7 +17,7 @@ namespace pt {
 
 inline constexpr std::size_t tile_size = gpu::TILE_SIZE;
 
-// Limits the relative errors of black pixels.
+// Keeps the relative errors of black pixels finite.
 inline constexpr double relative_offset = 0.01;
 
 using gpu::squared;
@@ -28,35 +27,34 @@ struct TileValues {
     std::size_t height;
     double sample_count;
     std::uint64_t rejected{};
-    // Rows have tile_size values even in narrower tiles.
+    // Rows have tile_size values, also in narrower tiles.
     std::array<std::array<PixelValue, 3>, tile_size * tile_size> pixels{};
 };
 
-// Expected squared errors of values x with expected values r, summed over channels. Pixels outside the image have 0.
+// Expected squared errors of pixel values x with the limits r, summed over channels. Pixels outside the image have 0.
 struct PixelErrors {
     using Numbers = std::array<double, tile_size * tile_size>;
 
     Numbers square{};          // (x - r)^2
-    Numbers relative_square{}; // (x - r)^2 / (r^2 + 0.01), except for light that one part hit
-    Numbers met_once{};        // relative squares of light that one part hit, with r from the other part
-    Numbers as_lamps{};        // relative squares of light that one part hit, with r = x
-    Numbers met_again{};       // number of bright values in both parts
-    Numbers unseen{};          // expected relative squares from light that no sample of the pixel hit; its neighbors
-                               // show this light
+    Numbers relative_square{}; // (x - r)^2 / (r^2 + 0.01), except for light that samples of only one part hit
+    Numbers met_once{};        // the same for light that samples of only one part hit, with r from the other part
+    Numbers as_lamps{};        // for the same light with r = x
+    Numbers met_again{};       // number of values where samples of both parts hit bright light
+    Numbers unseen{};          // expected relative squares from neighbors' light that no sample of the pixel hit
 };
 
 PixelErrors pixel_errors(const TileValues &tile);
 
 struct ErrorSquares {
     double sum = 0.0;              // infinite if unknown
-    double of_pixels = 0.0;        // sum of each pixel's sum squared
-    double of_tiles = 0.0;         // sum of each tile's sum squared
-    double times_tile_sizes = 0.0; // sum of each tile's sum times its number of values
+    double of_pixels = 0.0;        // sum of squares of pixels' sums
+    double of_tiles = 0.0;         // sum of squares of tiles' sums
+    double times_tile_sizes = 0.0; // sum of tiles' sums times their numbers of values
 };
 
 struct TileErrors {
     double value_count = 0.0;
-    double squares_of_tile_sizes = 0.0; // sum of each tile's squared number of values
+    double squares_of_tile_sizes = 0.0; // sum of squares of tiles' numbers of values
     ErrorSquares square;
     ErrorSquares relative_square;
     ErrorSquares met_once;
@@ -65,7 +63,7 @@ struct TileErrors {
     double unseen = 0.0;
     std::uint64_t rejected = 0;
 
-    // The relative squares without use of other tiles.
+    // The relative squares, estimated without use of other tiles.
     double own_square() const { return relative_square.sum + as_lamps.sum + unseen; }
 };
 

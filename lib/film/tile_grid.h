@@ -28,8 +28,7 @@ struct TileGrid {
         return std::size_t{y / gpu::TILE_SIZE} * columns() + x / gpu::TILE_SIZE;
     }
 
-    // Calls function(first, count, tile) for each run of pixels within a row of a tile. `first` counts from
-    // first_pixel.
+    // Calls function(first, count, tile) for each run of pixels in a row of a tile. `first` is relative to first_pixel.
     template <typename Function>
     void for_each_run(std::uint32_t first_pixel, std::size_t pixel_count, const Function &function) const {
         for (std::size_t done = 0; done < pixel_count;) {

@@ -165,7 +165,7 @@ std::vector<FilmTile> canonical_tiles(const std::vector<FilmTile> &tiles) {
     const std::vector<std::size_t> firsts = first_equals(tiles);
     std::vector<FilmTile> all;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::size_t, std::size_t>>
-        above; // maps runs to samples and tile
+        above; // samples and tile of each run
     std::uint32_t bottom = 0;
     for (const TileMap map(tiles); const TileMap::Band &band : map.bands()) {
         std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::size_t, std::size_t>> here;

@@ -29,9 +29,11 @@ public:
     std::uint64_t most() const;
     std::uint64_t total() const;
 
+    // The tiles must be in ascending order and must not have these samples yet.
     void add(std::span<const std::uint32_t> tiles, const SampleRange &range);
     void set(std::size_t tile, const SampleSet &samples);
 
+    // first_row must be a multiple of the tile size.
     TileSamples rows(std::uint32_t first_row, std::uint32_t row_count) const;
 
     void clear() noexcept;
