@@ -45,7 +45,6 @@ bool is_center(const JsonPath &path) {
     return path[0].key == "spheres" && path[2].key == "center";
 }
 
-// The change within a frame.
 json way_of(const AnimatedValue &value, std::uint32_t frame) {
     const std::vector<double> begin = value.at(frame);
     std::vector<double> way = value.at(frame + 1.0);

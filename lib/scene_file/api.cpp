@@ -17,7 +17,8 @@
 
 struct pt_scene_file {
     pt::SceneFile read;
-    std::size_t animated_count = 0; // the first of read.overrides come from the animation
+    std::size_t animated_count =
+        0; // number of overrides at the beginning of read.overrides that come from the animation
     std::vector<pt_sphere_array> arrays;
     std::vector<std::string> column_paths;
     std::string message;
@@ -139,7 +140,6 @@ pt_result pt_get_scene_file(const pt_scene_file *file, pt_scene *scene, pt_camer
                             pt_scene_film *film) {
     return guarded([&] {
         pt::require_not_null(file, "file");
-        // All sizes are checked before anything is written.
         const std::uint32_t scene_size = scene == nullptr ? 0 : pt::struct_size_of(scene, "scene");
         const std::uint32_t camera_size = camera == nullptr ? 0 : pt::struct_size_of(camera, "camera");
         const std::uint32_t render_size = render == nullptr ? 0 : pt::struct_size_of(render, "render");

@@ -54,7 +54,7 @@ public:
                 json::parse(TellingIterator(begin_, reached_), TellingIterator(begin_ + text.size(), reached_),
                             take_next, throws, ignore_comments);
         } catch (const json::out_of_range &error) {
-            constexpr int number_overflow = 406; // nlohmann-json's documented id
+            constexpr int number_overflow = 406; // documented by nlohmann-json
             if (error.id != number_overflow)
                 throw;
             refuse_overflow(error.what());
@@ -63,7 +63,7 @@ public:
 
     std::optional<std::size_t> line() const { return line_; }
 
-    // Returns where a comma is missing, if one is. `wrong_end` is the end of the first wrong token.
+    // Returns the position of a missing comma, if there is one. `wrong_end` is the end of the first wrong token.
     std::optional<std::size_t> missing_comma(std::string_view text, std::size_t wrong_end) const {
         constexpr std::string_view blanks = " \t\r\n";
         constexpr std::string_view ends_of_values = "\"{[0123456789el";
@@ -85,7 +85,7 @@ private:
     static constexpr std::size_t section_depth = 1;
     static constexpr std::size_t element_depth = 2;
 
-    // The parser's callback. Returning false discards the value.
+    // The parser's callback. Returns false to discard the value.
     bool take(json::parse_event_t event, const json &parsed) {
         const bool is_end = event == json::parse_event_t::array_end || event == json::parse_event_t::object_end;
         after_value_ = is_end || event == json::parse_event_t::value;
@@ -121,7 +121,7 @@ private:
         return path;
     }
 
-    // Notes the line if this is the wanted value. The last character read may be the line end after a number, so it
+    // Stores the line if this is the wanted value. The last character read may be the line end after a number, so it
     // does not count.
     void enter() {
         const bool leads_there =
@@ -142,7 +142,7 @@ private:
             throw JsonRefusal(path(), "is given twice");
     }
 
-    // The line of a member is its key's. The line of an element is where the element begins.
+    // A member has the line of its key. An element has the line where it begins.
     void enter_value(json::value_t kind) {
         if (levels_.empty()) {
             enter();
@@ -160,7 +160,8 @@ private:
 
     void begin(bool is_array) {
         enter_value(is_array ? json::value_t::array : json::value_t::object);
-        levels_.push_back({{{}, is_array ? static_cast<std::size_t>(-1) : 0, is_array}}); // the first makes this 0
+        levels_.push_back(
+            {{{}, is_array ? static_cast<std::size_t>(-1) : 0, is_array}}); // becomes 0 at the first element
     }
 
     // Passes items to the handler and discards them.
@@ -185,14 +186,14 @@ private:
     std::optional<std::size_t> line_;
 };
 
-// For example "3:14", the position after this text. Lines and columns (bytes) count from 1.
+// Returns the position after this text, such as "3:14". Lines and columns (bytes) count from 1.
 std::string line_and_column(std::string_view before) {
     const auto line = std::count(before.begin(), before.end(), '\n') + 1;
     const std::size_t line_start = before.rfind('\n') + 1;
     return std::to_string(line) + ":" + std::to_string(before.size() - line_start + 1);
 }
 
-// Rewords the parser's message. error.byte counts the wrong character.
+// Rewords the parser's message. error.byte includes the wrong character.
 Error error_of(const json::parse_error &error, const ItemParser &parser, std::string_view text,
                const std::string &file_name) {
     if (const auto comma = parser.missing_comma(text, error.byte))

@@ -44,7 +44,7 @@ std::optional<std::size_t> bracketed_length(std::string_view text) {
     return std::nullopt;
 }
 
-// The shortest exact text. Whole numbers below 1e15 have no exponent.
+// Returns the shortest exact text. Whole numbers below 1e15 have no exponent.
 std::string number_text(double number) {
     if (std::abs(number) < 1e15 && number == std::trunc(number))
         return std::to_string(static_cast<std::int64_t>(number));
@@ -92,7 +92,6 @@ bool is_in_range(const ValueRule &rule, double number) {
            (number >= rule.least && number <= rule.largest && !(rule.excludes_largest && number == rule.largest));
 }
 
-// Numbers from 2^64 on do not fit.
 bool is_whole_number(const json &value) {
     const double number = value.is_number() ? value.get<double>() : -1.0;
     return value.is_number_integer() || (value.is_number_float() && number < 0x1p64 && number == std::floor(number));

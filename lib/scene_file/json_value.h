@@ -25,10 +25,10 @@ struct JsonStep {
 
 using JsonPath = std::vector<JsonStep>;
 
-// For example spheres[3].radius or materials["blue ball"].diffuse[0].
+// Returns for example spheres[3].radius or materials["blue ball"].diffuse[0].
 std::string path_text(const JsonPath &path);
 
-// The path is empty if the text does not begin with one.
+// The path is empty if the text begins with none.
 struct ParsedPath {
     JsonPath path;
     std::string_view rest;
@@ -37,7 +37,7 @@ std::optional<ParsedPath> parse_path(std::string_view text);
 
 bool is_within(const JsonPath &path, const JsonPath &outer);
 
-// A chain to the root. Only messages need paths, and scenes may have millions of values.
+// A linked list to the root. Full paths are made only for messages, because scenes may have millions of values.
 struct JsonPlace {
     const JsonPlace *parent = nullptr;
     std::string_view key; // empty at the root and in arrays
@@ -57,7 +57,7 @@ struct JsonRefusal : std::runtime_error {
         cause(std::move(place)) {}
 
     JsonPath path;
-    JsonPath cause; // value or unknown key whose line the message names
+    JsonPath cause; // the value or unknown key whose line the message has
 };
 
 [[noreturn]] inline void refuse(const JsonPlace &place, const std::string &rule) {
@@ -80,7 +80,7 @@ struct ValueRule {
     double largest = std::numeric_limits<double>::infinity();
     bool excludes_largest = false;
     bool may_be_negative = false;
-    bool is_of_library = false; // The library checks the range.
+    bool is_of_library = false; // libpt checks the range
     bool is_float = false;
     bool excludes_zeros = false;
     std::size_t count = 0;

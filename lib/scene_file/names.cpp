@@ -13,7 +13,7 @@ char lower(char letter) {
     return static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
 }
 
-// Optimal string alignment distance without regard to case. Damerau 1964: 80% of misspellings are one edit.
+// Optimal string alignment distance, ignoring case. 80% of misspellings are one edit (Damerau 1964).
 std::size_t edit_distance(std::string_view from, std::string_view to) {
     std::vector<std::size_t> before_last(to.size() + 1);
     std::vector<std::size_t> last(to.size() + 1);

@@ -45,7 +45,7 @@ private:
 template <std::size_t Count>
 ValueNames(const Named<std::uint32_t> (&)[Count]) -> ValueNames<Count>;
 
-// Empty if no name is similar.
+// Returns an empty string if no name is similar.
 std::string_view nearest_name(std::string_view name, std::span<const std::string_view> known);
 
 // Returns `unknown key "raduis", did you mean "radius"?`, or a short list of all names.

@@ -57,7 +57,8 @@ constexpr std::array<std::array<std::string_view, 2>, 6> renamed{{{"camera.targe
                                                                   {"render.height", "film.height"},
                                                                   {"accumulate.sample_count", "render.spp"}}};
 
-// Spheres and capsules with looks are arrays, too. They come before items that are many.
+// Single spheres with looks and capsules are also arrays (SceneFile::scene()). They come before the items that are many
+// spheres.
 JsonPath path_in_arrays(const SceneFile &scene, const BrokenRule &rule) {
     const std::size_t of_spheres = scene.looks.empty() ? 0 : 1;
     const std::size_t of_single = of_spheres + (scene.capsules.empty() ? 0 : 1);
@@ -70,7 +71,7 @@ JsonPath path_in_arrays(const SceneFile &scene, const BrokenRule &rule) {
     const std::string_view section = many ? many->section : array < of_spheres ? "spheres" : "capsules";
     const std::size_t item = many ? many->item : scene.item_of(section, element);
     JsonPath path{{std::string(section)}, {{}, item, true}, {rule.member}};
-    if (rule.component >= 0 && !is_single && rule.member != "material") // one value for all
+    if (rule.component >= 0 && !is_single && rule.member != "material") // one value for all spheres
         path.push_back({{}, element, true});
     return path;
 }

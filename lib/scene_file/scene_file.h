@@ -1,5 +1,5 @@
-// Reads scene files into the structs of pt.h. Checks names, types and units. libpt checks ranges, and explain()
-// translates its messages. Errors are PT_ERROR_INVALID_SCENE, or an override's `blame`.
+// Reads scene files into the structs of pt.h. Checks names and types. libpt checks ranges, and explain() translates its
+// messages. Errors are PT_ERROR_INVALID_SCENE, or `blame` of an override.
 #pragma once
 
 #include "lib/base/error.h"
@@ -21,7 +21,7 @@
 
 namespace pt {
 
-// Looks from (0, 0, 1) to the origin.
+// The view from (0, 0, 1) to the origin.
 constexpr pt_camera default_camera() {
     auto camera = sized<pt_camera>();
     camera.position[2] = 1.0;
@@ -43,7 +43,7 @@ constexpr pt_display_info default_display() {
     return display;
 }
 
-// A sphere's properties beside its material.
+// A sphere's own color and opacity.
 struct Look {
     std::array<float, 3> color{1.0F, 1.0F, 1.0F};
     float opacity = 1.0F;
@@ -58,7 +58,7 @@ struct Capsule {
 // The source of a value that libpt refuses.
 struct RuleSource {
     std::string message;  // "scene.json:7: materials.gold.glossiness = -1: must be >= 0"
-    std::size_t line = 0; // 0 if the value is not in the file
+    std::size_t line = 0; // 0: the value is not in the file
     const SceneOverride *cause = nullptr;
 };
 
@@ -66,7 +66,7 @@ struct SceneFile {
     std::string path;
     std::string text;
     std::vector<SceneOverride> overrides;
-    std::vector<JsonPath> given; // keys of `camera`, `film` and `render`
+    std::vector<JsonPath> given; // keys in `camera`, `film` and `render` that have a value
     std::vector<std::string> material_names;
     std::vector<pt_material> materials;
     std::vector<std::uint32_t> used_materials; // ascending
@@ -83,15 +83,17 @@ struct SceneFile {
 
     void add_sphere(const pt_sphere &sphere, const std::optional<Look> &look);
 
-    // Points into this object. First come single spheres if any has a look, then capsules, then each item that is many.
+    // The result points into this object. Its arrays are: the single spheres if any has a look, the capsules, then the
+    // items that are many spheres.
     pt_scene scene() const;
     std::vector<pt_sphere_array> sphere_arrays() const;
-    std::size_t item_of(std::string_view section,
-                        std::size_t index) const; // index of a single item among all of the section
+    std::size_t
+    item_of(std::string_view section,
+            std::size_t index) const; // `index` counts single items; the result counts all items of the section
 
     bool gives(const JsonPath &key) const;
 
-    // Whether the file or an override gives the field. Other fields have their default or do not exist in scene files.
+    // Whether the file or an override sets the field.
     bool gives(const BrokenRule &rule) const;
 
     RuleSource source_of(const BrokenRule &rule) const;
@@ -100,7 +102,7 @@ struct SceneFile {
     pt_result blame(const BrokenRule &rule) const;
 };
 
-// Later overrides win. Messages and columns use `path`.
+// Later overrides replace earlier ones. `path` is the name in messages, and columns are relative to its folder.
 SceneFile scene_of_text(std::string text, const std::string &path, std::vector<SceneOverride> overrides = {});
 
 // Also throws PT_ERROR_FILE.

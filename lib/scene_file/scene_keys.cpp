@@ -69,7 +69,7 @@ constexpr std::array camera_keys{
              [](Item item, Value value) {
                  item.scene.camera.projection = projections.find(value.get_ref<const std::string &>()).value();
              }},
-    // The library's [1e-8, pi) in degrees. The library takes 0 for the default, here and for the extent.
+    // The rule of libpt, [1e-8, pi), in degrees. libpt would take 0 as the default.
     SceneKey{"vertical_fov",
              {.least = 6e-7, .largest = 180.0, .excludes_largest = true, .unit = "degrees"},
              "Vertical angle of view (perspective)",

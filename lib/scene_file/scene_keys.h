@@ -1,4 +1,4 @@
-// The table of scene keys, from which reader, JSON Schema, options and the manual's rows follow.
+// The table of scene keys, from which reader, JSON Schema, options and the manual's rows are made.
 #pragma once
 
 #include "lib/scene_file/json_value.h"
@@ -28,17 +28,17 @@ struct SceneKey {
     std::string_view name;
     ValueRule rule;
     std::string_view words;
-    std::string_view initial; // default as in a file, or empty
+    std::string_view initial; // default in the file's notation, or empty
     bool is_required;
-    void (*store)(SceneItem &item, const nlohmann::json &value); // `value` keeps the rule
+    void (*store)(SceneItem &item, const nlohmann::json &value); // `value` obeys the rule
     std::string_view option = {};
-    pt_column pt_sphere_array::*column = nullptr; // nullptr if many spheres cannot have the key
+    pt_column pt_sphere_array::*column = nullptr; // nullptr if the key cannot be a column
 };
 
 enum class SectionForm {
     members,
-    objects, // named objects with these keys
-    array    // objects with these keys
+    objects, // named objects that have these keys
+    array    // objects that have these keys
 };
 
 struct SceneSection {
@@ -49,11 +49,11 @@ struct SceneSection {
 
     bool may_be_many() const;
 
-    // Whether values may change between frames.
+    // Whether values may be animated.
     bool may_move() const { return form != SectionForm::members || name == "camera"; }
 };
 
-// Leaves out `animation`, whose keys are paths.
+// All sections except `animation`, whose keys are paths.
 std::span<const SceneSection> scene_sections();
 
 const SceneSection *find_section(std::string_view name);
@@ -61,7 +61,7 @@ const SceneKey *find_key(const SceneSection &section, std::string_view name);
 
 std::vector<std::string_view> key_names(const SceneSection &section);
 
-// `text` has no byte order mark. Also throws JsonRefusal.
+// `text` must have no byte order mark. Also throws JsonRefusal.
 void read_sections(SceneFile &scene, std::string_view text);
 
 } // namespace pt

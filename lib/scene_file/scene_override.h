@@ -1,4 +1,4 @@
-// Values of a program or an animation that replace those in a scene file.
+// A value of an option or an animation that replaces one in a scene file.
 #pragma once
 
 #include "lib/base/error.h"
@@ -17,9 +17,9 @@ inline constexpr std::size_t item_depth = 2;
 struct SceneOverride {
     JsonPath path;
     nlohmann::json value;
-    std::string source; // shown in messages: "--set camera.vertical_fov=30"
+    std::string source; // for messages, such as "--set camera.vertical_fov=30"
     pt_result blame;
-    bool is_its_name = false; // messages call the value "--spp", not by its path
+    bool is_its_name = false; // messages name the value by `source`, not by its path
 
     // Adds missing members of objects. Elements of arrays must exist. Throws `blame`.
     void apply_to(nlohmann::json &item) const;
@@ -27,8 +27,8 @@ struct SceneOverride {
     std::string name_of(const JsonPath &part) const { return is_its_name ? source : source + ": " + path_text(part); }
 };
 
-// `text` is "camera.vertical_fov=30". The value is JSON or else a text, so names need no quotes. Messages put `name`,
-// such as "--set ", before it. Throws PT_ERROR_INVALID_ARGUMENT.
+// `text` is for example "camera.vertical_fov=30". A value that is not JSON is a text, so names need no quotes. Messages
+// have `name`, such as "--set ", before the text. Throws PT_ERROR_INVALID_ARGUMENT.
 SceneOverride parse_override(const std::string &text, const std::string &name);
 
 } // namespace pt

@@ -44,7 +44,7 @@ void check_projection(const pt_camera &camera, const JsonPlace &place) {
 
 class SceneReader : public JsonItemHandler {
 public:
-    // `scene` has its overrides.
+    // `scene` must already have its overrides.
     explicit SceneReader(SceneFile &scene) : scene_(scene) {}
 
     // Functions also throw JsonRefusal.
@@ -59,7 +59,7 @@ public:
         begun_.insert(section_);
     }
 
-    // Does little for items without an override, of which there may be millions.
+    // Must be fast for items without an override, because there may be millions.
     void item(const JsonPlace &place, const json &value) override {
         const std::vector<std::size_t> changes =
             scene_.overrides.empty() ? std::vector<std::size_t>() : overrides_of(place.path());
@@ -69,8 +69,8 @@ public:
             read_changed(place, value, changes);
     }
 
-    // Adds values that only overrides have, and checks the whole file. Resolves names here, because materials may
-    // follow spheres.
+    // Adds values that only overrides have, and checks the whole file. Resolves names of materials, which may follow
+    // spheres in the file.
     void finish() {
         add_items_of_overrides();
         require_members();
@@ -116,7 +116,7 @@ private:
             read_element(place, value);
     }
 
-    // Ignores missing members.
+    // Does not check for missing members.
     void check_item(const JsonPlace &place, const json &value) const {
         if (section_ == nullptr)
             read_animated_value(place, value);

@@ -62,7 +62,7 @@ Schema value_of(const ValueRule &rule) {
     return number(rule);
 }
 
-// With of_many, the center and perhaps other properties are files.
+// With of_many, the center must be a file, and other properties may be files.
 Schema object_of(const SceneSection &section, bool of_many) {
     const Schema file{{"type", "string"}, {"minLength", 1}};
     Schema schema{{"type", "object"}, {"additionalProperties", false}};

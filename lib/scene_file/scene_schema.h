@@ -4,8 +4,8 @@
 
 namespace pt {
 
-// JSON Schema of scene files, draft 7 (json-schema.org/draft-07). Rules on two values (names of materials, look_at, up)
-// are left to the reader.
+// Returns the JSON Schema of scene files, draft 7 (json-schema.org/draft-07). It does not have rules on two values
+// (names of materials, look_at, up).
 std::string scene_schema();
 
 } // namespace pt

@@ -24,8 +24,8 @@ std::uint32_t size_of(std::uint32_t type) {
     return type == PT_TYPE_FLOAT64 ? 8 : type == PT_TYPE_FLOAT32 ? 4 : 1;
 }
 
-// The header is a Python dictionary, {'descr': '<f4', 'fortran_order': False, 'shape': (10, 3), }. Quotes, parentheses,
-// capitals and the last comma differ from JSON. Other headers are discarded.
+// The header is a Python dictionary, {'descr': '<f4', 'fortran_order': False, 'shape': (10, 3), }. It differs from JSON
+// in quotes, parentheses, capitals and the last comma. The result is discarded if the header is not like this.
 json dictionary_of(std::string_view head) {
     constexpr std::string_view python = "'()FT";
     constexpr std::string_view in_json = "\"[]ft";
@@ -45,7 +45,8 @@ class NpyHeader {
 public:
     NpyHeader(platform::InputFile &file, const std::string &name) : name_(name) {
         constexpr std::size_t version_place = magic.size();
-        constexpr std::size_t longest = 65535; // in version 1; longer headers have named fields
+        constexpr std::size_t longest =
+            65535; // longest header of version 1; arrays without named fields have no longer one
         const std::string start(file.first(version_place + 2 + sizeof(std::uint32_t)));
         if (!start.starts_with(magic) || start.size() < version_place + 2)
             refuse("is no NPY file, which begins with \\x93NUMPY: write it by numpy.save");

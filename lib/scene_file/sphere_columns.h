@@ -1,4 +1,4 @@
-// Items {"center": "a.npy", ...} that are many spheres or capsules, and their NPY files
+// Items {"center": "a.npy", ...} for many spheres or capsules, and their NPY files
 // (numpy.org/doc/stable/reference/generated/numpy.lib.format.html).
 #pragma once
 
@@ -19,24 +19,24 @@ namespace pt {
 
 // Row order, little-endian.
 struct NpyArray {
-    std::string file; // the elements begin at `first`
+    std::string file; // the file's bytes; elements begin at `first`
     std::size_t first = 0;
     std::uint32_t type = 0; // PT_TYPE_FLOAT32, FLOAT64, or SRGB8 for uint8
     std::size_t row_count = 0;
-    std::size_t row_length = 0; // 0 for one dimension
+    std::size_t row_length = 0; // 0 if the array has one dimension
 
     const char *data() const { return file.data() + first; }
     std::uint32_t row_bytes() const;
 };
 
-// Reads one or two dimensions of float32, float64 or uint8. Throws PT_ERROR_INVALID_SCENE, naming the file, for
-// anything else or a wrong size, before reading elements.
+// Reads an array of float32, float64 or uint8 with one or two dimensions. Throws PT_ERROR_INVALID_SCENE for other
+// files, before elements are read.
 NpyArray read_npy(platform::InputFile &file, const std::string &name);
 
 struct SceneFile;
 struct SceneKey;
 
-// A file with a value per sphere, or one value for all.
+// A file with a value for each sphere, or one value for all.
 struct SphereColumn {
     const SceneKey *key;
     std::string file; // relative to the scene; empty if `value` is used
@@ -53,14 +53,14 @@ struct SphereColumns {
     std::vector<SphereColumn> columns{};
 
     void add_file(const SceneKey &key, const std::string &file, const JsonPlace &place);
-    void add_value(const SceneKey &key, const nlohmann::json &value); // `value` keeps the rule
+    void add_value(const SceneKey &key, const nlohmann::json &value); // `value` obeys the rule
 
     pt_sphere_array spheres() const;
 };
 
 std::vector<std::string> column_paths(const SceneFile &scene);
 
-// Throws PT_ERROR_FILE for an unreadable file, and PT_ERROR_INVALID_SCENE for an unsuitable one.
+// Throws PT_ERROR_FILE if a file cannot be read, and PT_ERROR_INVALID_SCENE if its array is unsuitable.
 void read_columns(SceneFile &scene);
 
 } // namespace pt

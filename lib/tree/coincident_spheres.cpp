@@ -13,7 +13,7 @@ namespace pt {
 
 namespace {
 
-// Up to 2^27 ranks have different steps. Along each axis, steps are below 2^9, or 2^-21 of the grid.
+// Returns a different vector for each of 2^27 ranks. Components are below 2^9 steps, or 2^-21 of the grid.
 glm::uvec4 steps_of(std::uint32_t rank) {
     constexpr std::uint32_t side = 512;
     return {rank % side, rank / side % side, rank / (side * side), 0};

@@ -14,7 +14,7 @@ int bins_for(std::size_t spheres) {
     return spheres > 64 ? most_bins : 8;
 }
 
-// Bins of equal width along the longest axis. In large parts, other axes hardly help.
+// Bins of equal width along the longest axis. In large parts, cuts along other axes are hardly better.
 class Bins {
 public:
     explicit Bins(const Part &part) :
@@ -99,7 +99,7 @@ BinCut best_cut(const Part &part, const Bins &bins) {
 
 } // namespace
 
-// Half of all branches would be mispredicted, so there are none.
+// The loop has no branches, because half of them would be mispredicted.
 Halves binned_halves(const Part &part) {
     const Bins bins(part);
     const BinCut cut = best_cut(part, bins);
@@ -115,7 +115,7 @@ Halves binned_halves(const Part &part) {
     return {{first, centres_of(first), cut.first_surface}, {second, centres_of(second), cut.second_surface}};
 }
 
-// Sorts by counting. Branches would be mispredicted.
+// Sorts by counting, because branches would be mispredicted.
 Halves swept_halves(const Part &part) {
     const std::size_t count = part.items.size();
     std::array<TreeItem, most_swept> best_items{};

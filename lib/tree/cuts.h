@@ -6,8 +6,8 @@
 
 namespace pt {
 
-// The halves with the least sum of surface times expected nodes (Wald 2007). Cuts are between bins along the longest
-// axis. The spheres must have different centers. Equal ones stay together.
+// Returns the halves with the least sum of surface times expected nodes (Wald 2007). Cuts are between bins along the
+// longest axis. The centers must not all be equal. Spheres with equal centers stay together.
 Halves binned_halves(const Part &part);
 
 inline constexpr std::size_t most_swept = 12;

@@ -15,15 +15,15 @@ namespace {
 
 constexpr std::uint32_t empty = ~std::uint32_t{0};
 constexpr unsigned place_bits = 26;
-constexpr std::uint32_t tag_count = 63; // with the 64th tag, a used slot could look empty
+constexpr std::uint32_t tag_count = 63; // a 64th tag could make a used slot look empty
 
 std::uint64_t hash_of(const glm::uvec4 &word) {
     const auto two = [](std::uint32_t low, std::uint32_t high) { return std::uint64_t{high} << 32 | low; };
     return mixed(mixed(two(word.x, word.y)) ^ two(word.z, word.w));
 }
 
-// A slot has a word's position and six bits of its hash, so different words are rarely compared. At most three quarters
-// of the slots are used.
+// A hash table. A slot has a word's position and six bits of its hash, so different words are rarely compared. At most
+// three quarters of the slots are used.
 class Slots {
 public:
     explicit Slots(std::span<const glm::uvec4> words) :
@@ -54,7 +54,7 @@ private:
 
 } // namespace
 
-// Prefetches slots while it compares others.
+// Fetches slots ahead of their use.
 bool has_equal_words(std::span<const glm::uvec4> words, WorkProgress &progress) {
     Slots slots(words);
     std::array<std::uint64_t, 32> hashes;

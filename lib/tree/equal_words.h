@@ -8,8 +8,8 @@
 
 namespace pt {
 
-// Returns true if two words are equal, and also if the search would take long, which random hashes do not cause. Uses
-// up to 11 bytes per word. Takes at most 2^26 words. Each word is a unit of work.
+// Returns true if two words are equal, and also if the search would take too long, which does not happen with random
+// hashes. Takes at most 2^26 words. Each word is a unit of work.
 bool has_equal_words(std::span<const glm::uvec4> words, WorkProgress &progress);
 
 } // namespace pt

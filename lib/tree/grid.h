@@ -1,4 +1,5 @@
-// The integer grid of a tree's spheres. Differences of its points are exact, so the tree does not depend on the camera.
+// The integer grid of a tree's spheres. Differences of grid points are exact, so the tree does not depend on the
+// camera.
 #pragma once
 
 #include "shaders/gpu_layout.h"
@@ -13,14 +14,14 @@
 namespace pt {
 
 struct Grid {
-    // Differences to a camera at twice this distance do not overflow.
+    // Largest absolute coordinate. Differences to a camera at twice this distance do not overflow.
     static constexpr double reach = gpu::TREE_REACH;
 
     glm::dvec3 middle;
     double step; // scene units, a power of two
     double steps_per_unit;
 
-    // The finest grid that reaches this distance along each axis.
+    // Makes the finest grid that reaches this distance along each axis.
     Grid(const glm::dvec3 &middle_of, double distance) :
         middle(middle_of),
         step(step_for(distance)),
@@ -34,14 +35,15 @@ struct Grid {
     glm::dvec3 point(const glm::ivec3 &at) const { return middle + step * glm::dvec3(at); }
 
 private:
-    // The smallest power of two for which `reach` steps cover the distance. float32 must hold the step and its inverse.
+    // Returns the smallest power of two for which `reach` steps cover the distance. float32 must hold the step and its
+    // inverse.
     static double step_for(double distance) {
         int exponent = 0;
         std::frexp(distance / reach, &exponent);
         return std::ldexp(1.0, std::clamp(exponent, -120, 120));
     }
 
-    // Doubles near 1.5 * 2^52 have a spacing of 1, so adding rounds to an integer, ties to even.
+    // Doubles near 1.5 * 2^52 have a spacing of 1, so the sum is rounded to an integer, ties to even.
     static int nearest(double number) {
         constexpr double ones_are_last = 0x1.8p52;
         return static_cast<int>(static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(number + ones_are_last)));

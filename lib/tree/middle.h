@@ -9,7 +9,7 @@
 
 namespace pt {
 
-// Returns the medians of about a thousand points, so a few distant points have no effect.
+// Returns the medians of about a thousand points, on which a few distant points have little effect.
 template <typename CenterOf>
 glm::dvec3 middle_of(std::uint32_t count, CenterOf center_of) {
     constexpr std::uint32_t enough = 1000;

@@ -51,13 +51,13 @@ struct Box {
     }
 };
 
-// Samples of this size give nearly as good cuts as all spheres (tests/bench/NOTEBOOK.md).
+// Samples of this size give nearly as good cuts as all spheres.
 inline constexpr std::size_t sample_size = 4096;
 
 inline constexpr std::size_t sampled_from = 4 * sample_size;
 
-// Calls use(item) for all items of a small group. A large group may have a regular order, so one random item of each of
-// sample_size runs is used instead. The result is deterministic.
+// Calls use(item) for all items of a small group. For a large group, calls use(item) for one pseudorandom item of each
+// of sample_size runs, because items may be in a regular order.
 template <typename Use>
 void for_each_or_sample(Items items, Use use) {
     if (items.size() < sampled_from) {
@@ -74,7 +74,7 @@ void for_each_or_sample(Items items, Use use) {
     }
 }
 
-// The box of all centers. In large groups a sample's box suffices, if its centers differ.
+// Returns the box of all centers, or in large groups of a sample whose centers differ.
 inline Box centres_of(Items items) {
     Box box;
     for_each_or_sample(items, [&](const TreeItem &item) { box.add_centre(item); });
@@ -90,10 +90,10 @@ inline Box balls_of(Items items) {
     return box;
 }
 
-// Large parts have the boxes of a sample.
+// A group of spheres to be split. In large parts, the boxes are those of a sample.
 struct Part {
     Items items;
-    Box centres; // a point only if all centers are equal
+    Box centres; // a single point only if all centers are equal
     float surface = 0.0F;
     bool has_no_twins = false;
 };

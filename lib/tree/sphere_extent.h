@@ -32,7 +32,7 @@ struct SphereExtent {
     PointBox box{glm::dvec3(std::numeric_limits<double>::infinity()),
                  glm::dvec3(-std::numeric_limits<double>::infinity())};
     double largest_radius = 0.0;
-    bool moves = false; // includes left_out, because kernels read all motions or none
+    bool moves = false; // also true if only a sphere of left_out moves, because kernels read all motions or none
     Kinds kinds;
     std::uint32_t lamp_count = 0;
 
@@ -52,7 +52,7 @@ struct SphereExtent {
             moves = moves || spheres[index].ball().moves();
     }
 
-    // Extends by one step more, because places are rounded.
+    // Extends the grid by a step, because places are rounded.
     Grid grid() const {
         const glm::dvec3 half = 0.5 * box.high - 0.5 * box.low;
         return {0.5 * box.low + 0.5 * box.high, std::max({half.x, half.y, half.z, largest_radius}) * (1.0 + 0x1p-28)};

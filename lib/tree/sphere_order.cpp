@@ -12,7 +12,7 @@ namespace pt {
 
 namespace {
 
-// Deeper nodes are halved. log4(2^26) = 13 more levels hold all spheres of a scene.
+// Nodes at this depth or deeper are halved. 13 = log4(2^26) more levels hold all spheres of a scene.
 constexpr std::uint32_t free_depth = 14;
 
 Part part_of(Items items) {
@@ -55,7 +55,7 @@ std::uint64_t hash_of(const SphereBits &bits) {
     return hash;
 }
 
-// Reading bits is slow, so only spheres with equal hashes are compared.
+// Reading the bits of spheres is slow, so only spheres with equal hashes are compared.
 Part without_twins(Part part, const Making &making) {
     const std::size_t count = part.items.size();
     if (part.has_no_twins || (count <= tree_width && !have_equals(part.items)))
@@ -99,8 +99,8 @@ struct Children {
     std::span<Part> all() { return std::span(parts).first(count); }
 };
 
-// The larger surface comes first. Deep in the tree, the larger number of spheres comes first, so no child has over a
-// quarter of them.
+// The part with the larger surface comes first. Deep in the tree, the part with more spheres comes first, so that no
+// child has more than a quarter of them.
 bool goes_before(const Part &part, const Part &other, std::uint32_t depth) {
     return depth < free_depth ? part.surface > other.surface : part.items.size() > other.items.size();
 }
@@ -113,8 +113,8 @@ Part *next_of(std::span<Part> parts, std::uint32_t depth) {
     return next;
 }
 
-// Divides a node's parts until there are enough children. A cut of few spheres, at a single point or in the middle can
-// separate twins, so twins are removed before such a cut.
+// Divides a node's parts until there are enough children. Cuts of few spheres, of spheres with one common center, or
+// into equal halves can separate twins, so twins are removed before.
 Children children_of(Part node, const Making &making, std::uint32_t depth) {
     Children children;
     if (node.items.size() <= tree_width || node.centres.is_point() || depth == free_depth)

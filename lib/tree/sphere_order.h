@@ -11,7 +11,7 @@
 
 namespace pt {
 
-// A bounding ball in any unit. Contains the whole motion of a moving sphere.
+// The bounding ball of a sphere and its whole motion, in any unit.
 struct TreeItem {
     std::array<float, 4> centre_radius;
     std::uint32_t sphere;
@@ -19,7 +19,7 @@ struct TreeItem {
 
 inline constexpr std::uint32_t tree_width = gpu::TREE_WIDTH;
 
-// Child nodes come before child spheres. Both kinds are consecutive.
+// Child nodes come before child spheres.
 struct TreeLinks {
     std::uint32_t first_child;
     std::uint32_t first_place;
@@ -33,13 +33,13 @@ struct TreeShape {
     std::uint32_t depth;
 };
 
-// Geometry, and for translucent spheres material and color. Spheres with equal bits are twins, of which only the first
-// is kept.
+// A sphere's geometry and, if it is translucent, material and color. Spheres with equal bits are twins, of which only
+// the first is kept.
 using SphereBits = std::array<std::uint32_t, 10>;
 using BitsOfSphere = std::function<SphereBits(std::uint32_t)>;
 
 // Cuts nodes where the sum of surface times expected nodes is least (Goldsmith and Salmon 1987; Wald 2007). Deep nodes
-// are halved, so the depth is at most 27 for 2^26 spheres. Each item is a unit of work.
+// are cut into equal halves, so the depth is at most 27 for 2^26 spheres. Each item is a unit of work.
 TreeShape tree_shape(std::vector<TreeItem> items, const BitsOfSphere &bits_of, WorkProgress &progress);
 
 } // namespace pt

@@ -21,8 +21,8 @@ namespace {
 
 constexpr std::uint32_t nowhere = ~std::uint32_t{0};
 
-// A new tree is built if the old shape's cost has grown by this factor. Rays would be about an eighth slower. Building
-// takes twice the time of reuse.
+// A new tree is built if the cost of the old shape has grown by this factor. Rays would then be about an eighth slower,
+// and building takes twice as long as reuse.
 constexpr double most_growth = 1.25;
 
 // Fractions of the remaining work, for a million spheres.
@@ -119,7 +119,6 @@ SphereTree::SphereTree(const SphereExtent &extent, const SphereSource &spheres,
     lamp_materials_.reserve(extent.lamp_count);
 }
 
-// Leaves room for the lamps' block, which comes later.
 void SphereTree::make_room(std::size_t node_count, WorkProgress &progress) {
     sphere_count_ = static_cast<std::uint32_t>(spheres_->size());
     const std::uint32_t quarter = (sphere_count_ + 3) / 4;
@@ -131,7 +130,7 @@ void SphereTree::make_room(std::size_t node_count, WorkProgress &progress) {
     first_color_ = first_surface_ + quarter;
     first_lamp_ = first_color_ + (has_colors_ ? quarter : 0);
     words_.reserve(first_lamp_ + lamp_materials_.capacity());
-    // Touching new memory takes long, so pieces report progress.
+    // Touching new memory takes long, so progress is reported after each piece.
     constexpr std::size_t some = std::size_t{1} << 20;
     while (words_.size() < first_lamp_) {
         words_.resize(std::min<std::size_t>(words_.size() + some, first_lamp_));
@@ -143,7 +142,7 @@ std::span<glm::uvec4> SphereTree::words_of_node(std::size_t node) {
     return std::span(words_).subspan(node * gpu::TREE_NODE_WORDS, gpu::TREE_NODE_WORDS);
 }
 
-// Writes in the tree's order. Random reads of the caller's memory are faster than random writes.
+// Writes in the tree's order, because random reads of the caller's memory are faster than random writes.
 void SphereTree::write_spheres(const SphereSource &spheres, std::span<const TreeMaterial> materials,
                                WorkProgress &progress) {
     std::vector<FoundLamp> lamps;
@@ -204,9 +203,9 @@ bool SphereTree::has_alike(WorkProgress &progress) const {
 void SphereTree::add_to(Digest &digest) const {
     digest.add(grid_.middle);
     digest.add(grid_.step);
-    if (has_opacities_) // the low bits of radii mean opacities
+    if (has_opacities_) // the low bits of radii are opacities
         digest.add(std::uint64_t{gpu::TREE_OPACITY_STEPS});
-    std::vector<std::uint32_t> places(scene_sphere_count_, nowhere); // left-out spheres and twins stay nowhere
+    std::vector<std::uint32_t> places(scene_sphere_count_, nowhere); // left-out spheres and twins keep `nowhere`
     for (std::uint32_t place = 0; place < sphere_count_; ++place)
         places[(*spheres_)[place]] = place;
     std::erase(places, nowhere);
@@ -234,7 +233,7 @@ bool SphereTree::is_far(const Camera &camera) const {
     return !(std::max({steps.x, steps.y, steps.z}) <= 2.0 * Grid::reach);
 }
 
-// Whether any sphere whose rounded box meets the box has the property.
+// Whether a sphere whose rounded box overlaps the box has the property.
 template <typename Property>
 bool SphereTree::any_in(const GridBox &box, Property &&property) const {
     std::vector<std::uint32_t> nodes{0};
@@ -347,7 +346,7 @@ void SphereTree::visit(const Camera &camera, const std::function<bool(const Movi
 }
 
 bool SphereTree::finds_close_lamps(WorkProgress &progress) const {
-    constexpr std::size_t as_many_spheres = 16; // a lamp takes the time of this many spheres
+    constexpr std::size_t as_many_spheres = 16; // a lamp takes as long as this many spheres
     progress.enter(share_of_close_lamps, static_cast<double>(lamp_materials_.size()));
     for (std::uint32_t lamp = 0; lamp < lamp_materials_.size(); ++lamp) {
         progress.add(1.0, as_many_spheres);
@@ -364,8 +363,8 @@ bool SphereTree::finds_close_lamps(WorkProgress &progress) const {
     return false;
 }
 
-// A camera within twice the grid's reach becomes a grid point, with exact differences. Farther away, the grid's middle
-// replaces the camera, because rounding is small against the distance.
+// A camera within twice the grid's reach is rounded to a grid point, so that differences are exact. For a farther
+// camera, the grid's middle is used, because rounding is small against the distance.
 gpu::TreeFrame SphereTree::frame(const Camera &camera) const {
     gpu::TreeFrame frame{};
     frame.camera = is_far(camera) ? glm::ivec3(0) : grid_.place(camera.position);

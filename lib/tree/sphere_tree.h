@@ -1,7 +1,7 @@
 // The tree of spheres in the kernel's layout. All devices share it.
 //
-// The shape affects only speed. Spheres that have moved a little can reuse an older shape, which takes a fraction of
-// the time.
+// The shape affects only speed. Spheres that have moved a little can reuse an older shape, which is faster than
+// building a new one.
 #pragma once
 
 #include "lib/base/digest.h"
@@ -27,13 +27,12 @@ namespace pt {
 
 class SphereTree {
 public:
-    // Contains all spheres except left_out (ascending indices). One sphere must remain. `materials` are the whole
-    // scene's.
+    // Contains all spheres except left_out (ascending indices), at least one. `materials` are those of the whole scene.
     SphereTree(const SphereSource &spheres, std::span<const std::uint32_t> left_out,
                std::span<const TreeMaterial> materials, WorkProgress &progress);
 
     // Reuses another tree's shape. Each sphere keeps its slot. Returns nothing if a new tree would be much better,
-    // other spheres are left out, or a tree has twins, which share a slot.
+    // other spheres are left out, or a tree has twins.
     static std::optional<SphereTree> with_shape_of(const SphereTree &other, const SphereSource &spheres,
                                                    std::span<const std::uint32_t> left_out,
                                                    std::span<const TreeMaterial> materials, WorkProgress &progress);
@@ -49,7 +48,8 @@ public:
     // Adds the grid and the words of all spheres in the scene's order.
     void add_to(Digest &digest) const;
 
-    // Expected number of nodes that a ray through the tree visits: the sum of their surfaces over the root's surface.
+    // Expected number of nodes that a ray through the tree visits: the sum of their surfaces divided by the root's
+    // surface.
     double cost() const { return cost_; }
 
     std::uint32_t sphere_count() const { return sphere_count_; }
@@ -67,13 +67,13 @@ public:
 
     Sphere lamp(std::uint32_t number) const;
 
-    // Whether the camera is at any time inside a sphere, or float32 cannot tell.
+    // Whether the camera is at any time inside a sphere. True if float32 cannot decide.
     bool may_hold(const Camera &camera) const;
 
     // Whether parallel rays may start on both sides of a sphere (seen_scene.h).
     bool divides_start(const Camera &camera) const;
 
-    // Finds the sphere with the least of_sphere(). of_region() must be a lower bound for all spheres in a ball.
+    // Finds the sphere with the least of_sphere(). of_region() must be a lower bound for all spheres within a ball.
     struct Least {
         double number;
         std::uint32_t sphere; // scene index
@@ -82,7 +82,7 @@ public:
     Least least(const Camera &camera, const std::function<double(const MovingBall &)> &of_region,
                 const std::function<double(const MovingBall &)> &of_sphere) const;
 
-    // Finds the sphere that reaches farthest from most others.
+    // Finds the sphere that reaches farthest from the middle of the others.
     struct Farthest {
         std::uint32_t sphere; // scene index
         MovingBall surface;
@@ -133,7 +133,7 @@ private:
     std::uint32_t depth_ = 0;
     std::uint32_t sphere_count_ = 0;
     std::uint32_t node_count_ = 0;
-    std::shared_ptr<const std::vector<std::uint32_t>> spheres_; // scene indices by slot; trees may share them
+    std::shared_ptr<const std::vector<std::uint32_t>> spheres_; // scene indices by slot; shared by trees of one shape
     double cost_ = 0.0;
     double cost_as_made_ = 0.0; // cost when the shape was built
     std::uint32_t first_sphere_ = 0;

@@ -4,7 +4,7 @@ namespace pt {
 
 namespace {
 
-// Rounds to the nearest float32 whose low bits are the opacity. Walks would be slower with a separate word.
+// Rounds to the nearest float32 whose low bits are the opacity. A separate word would make walks slower.
 std::uint32_t radius_bits(const Sphere &sphere) {
     const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(sphere.radius));
     if (sphere.opacity == no_opacity)

@@ -20,13 +20,11 @@ struct SphereWords {
 
     std::array<std::uint32_t, 8> all() const { return std::bit_cast<std::array<std::uint32_t, 8>>(*this); }
 
-    // The motion from time 0 to 1, or a capsule from end to end.
     MovingBall surface(const Grid &grid) const;
 
-    // In steps. Needs a tree with opacities.
+    // In steps of 1 / TREE_OPACITY_STEPS. Only for trees with opacities.
     std::int16_t opacity() const { return static_cast<std::int16_t>(place.w & gpu::TREE_OPACITY_STEPS); }
 
-    // The kernel's margin covers rounding.
     GridBox box(const Grid &grid) const;
 
     // In grid steps.
@@ -37,7 +35,7 @@ private:
     double radius() const { return std::bit_cast<float>(place.w); }
 };
 
-// Stores ten bits of each square root, which resolves dark colors better.
+// Stores ten bits of each component's square root, which resolves dark colors better.
 std::uint32_t color_word(const glm::vec3 &color);
 
 } // namespace pt

@@ -12,17 +12,17 @@ namespace pt {
 
 namespace {
 
-// Every ray tests these spheres, which at most doubles the time (default_tree_from). Inside, they would make the tree
-// slower, because boxes grow by 2^-19 of the tree's reach.
+// Every ray tests the spheres outside the tree, which at most doubles the time (default_tree_from). Distant spheres in
+// the tree would make it slower, because boxes are enlarged by 2^-19 of the tree's reach.
 constexpr std::size_t most_outlying = 50;
 
-// Nearer spheres cost at most four of the coordinates' 29 bits. float32 has fewer than the other 25.
+// Nearer spheres take at most four of the coordinates' 29 bits. The other 25 are more than float32 has.
 constexpr double much_farther = 16.0;
 
-// Walks are faster without capsules, so a few, such as the twelve edges of a cell, stay outside.
+// Walks are faster in a tree without capsules. So a few capsules, such as the twelve edges of a cell, stay outside.
 constexpr std::size_t few_others = 16;
 
-// Finds the few spheres that reach 16 times as far from the scene's middle as all others.
+// Finds the few spheres that reach much_farther times as far from the scene's middle as all others.
 std::vector<std::uint32_t> outlying_spheres(const SphereSource &spheres, WorkProgress &progress) {
     const std::size_t few = std::min(most_outlying, spheres.size() / 2);
     const glm::dvec3 middle =
@@ -53,7 +53,7 @@ std::uint32_t tree_pays_from(const SphereSource &spheres) {
     return spheres.are_mere_balls() ? default_tree_from : tree_of_others_from;
 }
 
-// Only the tree's walks handle opacities, so translucent spheres stay inside.
+// Translucent spheres stay in the tree, because only its walks handle opacities.
 std::vector<std::uint32_t> spheres_beside_tree(const SphereSource &spheres, WorkProgress &progress) {
     const std::vector<std::uint32_t> outlying = outlying_spheres(spheres, progress);
     std::vector<std::uint32_t> beside;

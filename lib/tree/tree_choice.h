@@ -8,10 +8,11 @@
 
 namespace pt {
 
-// A tree is faster from this many spheres on. On lavapipe, longer loops are not unrolled (DevicePolicy::unrolled).
+// A tree is faster from this many spheres on: DevicePolicy::unrolled + 1, because lavapipe does not unroll longer
+// loops.
 inline constexpr std::uint32_t default_tree_from = 113;
 
-// The same number for scenes with capsules. Tests of capsules take several times as long, and lavapipe takes seconds to
+// The number for scenes with capsules. Tests of capsules take several times as long, and lavapipe takes seconds to
 // compile them.
 inline constexpr std::uint32_t tree_of_others_from = 24;
 

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::uint32_t most_steps = 255;
 
-// The smallest power-of-two step with which a byte covers the extent.
+// Returns the exponent of the smallest step with which a byte covers the extent.
 std::uint32_t exponent_for(std::uint32_t extent) {
     const auto bits = static_cast<std::uint32_t>(std::bit_width(extent));
     std::uint32_t exponent = bits > 8 ? bits - 8 : 0;
