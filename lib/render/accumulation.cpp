@@ -36,7 +36,7 @@ bool Accumulation::set(TileTasks tasks, std::optional<double> unit_of_error) {
     return !tasks_.empty();
 }
 
-// After `until`, collects finished slices but starts none, because short slices could keep the call from returning.
+// After `until`, collects finished slices but starts none. Otherwise short slices could keep the call from returning.
 bool Accumulation::run(Clock::time_point until) {
     const bool begins = !is_under_way();
     for (const auto &device : devices_)
@@ -72,7 +72,7 @@ bool Accumulation::deal_to(RenderDevice &device) {
     if (!has_room_for(slice, device))
         return false;
     const bool is_last = tasks_.ends_all(slice.tiles.size());
-    // The slice is recorded before a device starts it, because started samples must be counted.
+    // The slice is stored before a device starts it, because started samples must be counted even after an exception.
     Begun next{slice, &device, samples_,
                is_last && unit_of_error_ && devices_.size() == 1 && device.estimates_behind()};
     next.samples.add(slice.tiles, slice.samples);
@@ -94,8 +94,8 @@ bool Accumulation::has_room_for(const TileSlice &slice, const RenderDevice &take
                                 std::ranges::all_of(devices_, [](const auto &device) { return device->has_room(); }));
 }
 
-// One device takes the slice's samples. The other devices move the splits of their films, so that all films can be
-// added part by part.
+// One device takes the samples of the slice. The other devices only move sums between the parts of their films, so that
+// all films can be added part by part.
 void Accumulation::start_begun() {
     const ErrorQuery estimate{unit_of_error_.value_or(1.0), begun_->samples};
     for (; begun_->next_device < devices_.size(); ++begun_->next_device) {
@@ -132,8 +132,8 @@ double Accumulation::fraction() const {
     return std::min(static_cast<double>(done_) / static_cast<double>(wanted_), 1.0);
 }
 
-// Returns the device whose slice ends first, or NULL at `until`. Vulkan can wait for only one device at a time, so
-// several are polled.
+// Returns the device whose slice ends first, or NULL at `until`. Vulkan can wait for only one device, so several
+// devices are polled.
 RenderDevice *Accumulation::next_to_finish(Clock::time_point until) const {
     constexpr std::chrono::microseconds pause{50};
     if (devices_.size() == 1)

@@ -1,5 +1,5 @@
-// Takes samples into the films of devices, in slices of tiles. Every begun sample is completed. Only run() starts
-// slices. Devices go on working between calls.
+// Adds samples to the films of devices, in slices of tiles. Every sample that has begun is completed. Only run() starts
+// slices. Devices continue working between calls.
 #pragma once
 
 #include "lib/film/tile_samples.h"
@@ -24,7 +24,7 @@ struct Progress {
     void *user;
 };
 
-// Other threads may use a context's Cancellation at any time, but nothing else of the context.
+// Thread-safe: pt_cancel may use it while another thread is in a call.
 class Cancellation {
 public:
     void begin() noexcept { state_ = State::UnderWay; }
@@ -52,29 +52,29 @@ class Accumulation {
 public:
     using Clock = std::chrono::steady_clock;
 
-    // `samples` are already in the films. `wanted` is the largest number of tiles times samples.
+    // `samples` are already in the films. `wanted` is the largest number of samples to be added, summed over tiles.
     Accumulation(const RenderDevices &devices, TileSamples samples, std::uint32_t first_sample, std::uint64_t wanted,
                  const Progress &progress, const Cancellation &cancellation, DeviceWork &work);
     Accumulation(const Accumulation &) = delete;
     Accumulation &operator=(const Accumulation &) = delete;
 
-    // Returns false if all tiles have reached the goal. `unit_of_error` is the films' unit if the films' error will be
-    // read afterwards. Nothing may be running.
+    // Returns false if all tiles have reached the goal. `unit_of_error` is the films' unit if their error will be read
+    // afterwards. Nothing may be running.
     bool set_goal(std::span<const std::uint32_t> tiles, const TileTasks::Goal &goal);
     bool set_goal_of_all(const TileTasks::Goal &goal) { return set_goal(all_tiles_, goal); }
     bool set_goal_of_all(std::uint64_t goal, std::optional<double> unit_of_error);
 
-    // Returns false if samples are still running at `until`, and must then be called again.
+    // Returns false if samples are still running at `until`. The caller must then call again.
     bool run(Clock::time_point until);
 
     bool is_under_way() const;
 
-    // From now on only begun samples are completed.
+    // No new samples begin after this.
     void stop() { stopped_ = true; }
     bool stopped() const { return stopped_; }
 
-    // Completes begun samples after an exception. If this also fails, returns false, and the films are void. Nothing is
-    // running afterwards.
+    // Completes begun samples after an exception. If this fails too, returns false, and the films are invalid. Nothing
+    // is running afterwards.
     bool complete() noexcept;
 
     double fraction() const;
@@ -86,7 +86,7 @@ public:
     bool has_estimate() const { return has_estimate_; }
 
 private:
-    // A slice that starts on one device after another. If one fails, complete() continues there.
+    // A slice that starts on one device after another. If a device fails, complete() continues with that device.
     struct Begun {
         TileSlice slice;
         const RenderDevice *taker;

@@ -12,11 +12,10 @@
 
 namespace pt {
 
-// Must be raised with any change of the bits of samples, or of the number of samples for a target error.
+// Must be increased with every change of the bits of samples, or of the number of samples for a target error.
 inline constexpr std::uint32_t estimator_version = 8;
 
-// Everything that decides the bits of samples. The identity excludes rows, ranges, submissions, the number of equal
-// devices, and kernels with the scene as constants (trace_pipelines.h).
+// Returns everything that decides the bits of samples.
 FilmIdentity identity_of(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings,
                          const KernelCode &code, const std::vector<pt_device_info> &devices);
 

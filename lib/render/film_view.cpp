@@ -7,7 +7,7 @@ namespace pt {
 
 namespace {
 
-// 56 MiB are much more than the data in transit, and much less than a large film.
+// A band takes 56 MiB, much less than a large film.
 constexpr std::uint32_t most_band_pixels = 1U << 19;
 
 } // namespace
@@ -19,7 +19,7 @@ std::vector<DeviceFilm *> FilmView::films(const RenderDevices &devices) {
     return films;
 }
 
-// The fewest bands of whole rows of tiles. All bands but the last have equal sizes.
+// Returns the fewest bands of whole rows of tiles. All bands except the last have equal sizes.
 std::vector<FilmView::Band> FilmView::bands() const {
     const TileGrid grid = home().film().grid();
     const std::uint32_t most = std::max<std::uint32_t>(most_band_pixels / gpu::TILE_SIZE / grid.width, 1);

@@ -1,5 +1,5 @@
-// Computes the image of a context's films and its error. The first device does this if its policy says so, otherwise
-// the host.
+// Computes the image of a context's films and its error, on the first device if its policy says so, otherwise on the
+// host.
 #pragma once
 
 #include "lib/film/error_estimate.h"
@@ -29,12 +29,12 @@ public:
 
     void read(const Image &image, const ImageQuery &query, const TileSamples &samples);
 
-    // Returns the image without gaps in device memory, or no value if the device does not make images. Valid until the
-    // next call or a new film.
+    // Returns the image without gaps in memory of the device, or no value if the device does not compute images. Valid
+    // until the next call or a new film.
     std::optional<std::span<std::byte>> map(const ImageQuery &query);
 
-    // Adds the errors of all tiles to the estimator, and fills query.by_tile. `is_recorded` means that the last
-    // submission of samples has computed the errors. Throws PT_ERROR_INTERNAL if a driver lost work.
+    // Adds the errors of all tiles to the estimator, and fills query.by_tile. If `is_recorded`, the last submission of
+    // samples has already computed the errors. Throws PT_ERROR_INTERNAL if a driver lost work.
     void estimate(ErrorEstimator &estimator, const ErrorQuery &query, bool is_recorded);
 
     // Must be called when the samples have changed.
@@ -45,7 +45,6 @@ public:
     // Must be called before films or kernels are replaced.
     void drop() noexcept { sums_.clear(); }
 
-    // Brings the films up to date.
     static std::vector<DeviceFilm *> films(const RenderDevices &devices);
 
 private:
@@ -73,7 +72,7 @@ private:
 
     const RenderDevices &devices_;
     FilmErrors errors_;
-    std::list<Sum> sums_; // for at most two sizes
+    std::list<Sum> sums_; // at most two, of different sizes
 };
 
 } // namespace pt

@@ -33,7 +33,7 @@ bool check_extent(const Subject &image, const char *name, std::uint32_t extent, 
     return within && extent >= 1;
 }
 
-// Only object numbers are integers, and these need an integer format.
+// Object numbers need an integer format, other quantities need a format of floats.
 void check_quantity(const Subject &image, std::uint32_t quantity, std::uint32_t format, ImageSource of) {
     const bool is_known = quantity <= gpu::LAST_QUANTITY;
     image.require(is_known, "quantity", quantity, "must be a PT_QUANTITY_* of pt.h");
@@ -47,7 +47,7 @@ void check_quantity(const Subject &image, std::uint32_t quantity, std::uint32_t 
                                                  : "PT_FORMAT_R32UI is for PT_QUANTITY_OBJECT alone");
 }
 
-// `alignment` of rows is in bytes. `offset` is the image's position in its memory.
+// `alignment` of rows and `offset` of the image in its memory are in bytes.
 template <typename Source>
 ImageLayout checked_layout(const Subject &image, const Source &source, std::uint32_t alignment, std::uint64_t offset,
                            std::uint32_t width, std::uint32_t height, ImageSource of) {
@@ -67,8 +67,7 @@ ImageLayout checked_layout(const Subject &image, const Source &source, std::uint
                   "must be a multiple of " + number_text(alignment));
     image.require(row_bytes >= width_bytes, "row_bytes", row_bytes,
                   "must be >= " + width_text + " (" + number_text(width_bytes) + ")");
-    // Checks offset + (height - 1) * row_bytes + width_bytes <= size_bytes by division, since the product may exceed
-    // 2^64.
+    // Checks offset + (height - 1) * row_bytes + width_bytes <= size_bytes without overflow.
     const std::uint64_t room = source.size_bytes - std::min(source.size_bytes, offset);
     const bool large_enough = room >= width_bytes && (room - width_bytes) / row_bytes >= pixels.height - 1;
     const std::string before = offset == 0 ? "" : "offset_bytes + ";

@@ -31,13 +31,13 @@ struct BufferImage {
     std::uint64_t signal_semaphore; // VkSemaphore, or 0
 };
 
-// A context has all quantities. Films and lent buffers only have those that come from samples.
+// A context has all quantities. Films and buffers have only those that come from samples.
 enum class ImageSource { Context, Samples };
 
-// Throws PT_ERROR_INVALID_ARGUMENT for PT_QUANTITY_COVERAGE of samples that were not counted.
+// Throws PT_ERROR_INVALID_ARGUMENT for PT_QUANTITY_COVERAGE without has_coverage.
 void require_coverage(std::uint32_t quantity, bool has_coverage);
 
-// source.struct_size must be checked already. width and height are the rendered pixels'. Throws
+// source.struct_size must already be checked. width and height are the number of rendered columns and rows. Throws
 // PT_ERROR_INVALID_ARGUMENT with all broken rules.
 Image validated_image(const pt_image &source, std::uint32_t width, std::uint32_t height, ImageSource of);
 ImageLayout validated_mapped_layout(const pt_image &source, std::uint32_t width, std::uint32_t height);
@@ -50,7 +50,7 @@ public:
     void put(std::span<const std::byte> pixels);
     void put(std::span<const float> values);
 
-    // Takes consecutive pixels of an image of this width. Keeps the pixels within the rectangle.
+    // Takes consecutive pixels of an image of this width. Stores those within the rectangle.
     void put_part(std::uint64_t first_pixel, std::uint32_t width, std::span<const float> values);
 
 private:

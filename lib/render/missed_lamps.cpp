@@ -13,8 +13,8 @@ namespace pt {
 
 namespace {
 
-// A lobe of glossiness n has a half-width that one of n + 1 uniform directions is within. Only some estimators find
-// lobes by chance.
+// Of uniform directions, a fraction 1 / (n + 1) is within the half-width of a lobe of glossiness n. Only some
+// estimators find lobes by chance.
 double smallest_lobe_share(const PreparedScene &scene, std::uint32_t estimator) {
     double share = 1.0;
     if (estimator == PT_ESTIMATOR_UNIFORM || estimator == PT_ESTIMATOR_COSINE)
@@ -24,7 +24,8 @@ double smallest_lobe_share(const PreparedScene &scene, std::uint32_t estimator) 
     return share;
 }
 
-// The fraction of directions towards a sphere. (1 - cos a) / 2 = sin^2 a / (2 (1 + cos a)) avoids cancellation.
+// Returns the fraction of directions that hit a sphere: (1 - cos a) / 2 = sin^2 a / (2 (1 + cos a)), which avoids
+// cancellation.
 double share_of(const SeenSphere &sphere) {
     const double sine = sphere.radius / sphere.distance;
     const double cosine = std::sqrt((1.0 - sine) * (1.0 + sine));
@@ -64,7 +65,7 @@ bool may_miss_lamps(const PreparedScene &scene, const Camera &camera, const Rend
     return static_cast<double>(samples) * share < enough_hits;
 }
 
-// Estimates from fewer hits are uncertain. Calibrated.
+// Errors of lamps with fewer expected hits are uncertain. Calibrated.
 constexpr double few_hits = 6.0;
 
 void take_in_unmet_lamps(ErrorEstimate &error, const UnmetSquares &unmet, double value_count) {

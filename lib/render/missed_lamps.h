@@ -11,16 +11,16 @@
 namespace pt {
 
 // Returns the fraction of directions from the camera that the smallest important lamp covers as the shutter opens.
-// Important lamps give at least a hundredth of the light at the camera. Lamps around the camera do not count. Without
+// Important lamps give at least a hundredth of the light at the camera. Lamps around the camera are ignored. Without
 // other lamps the result is 1.
 double smallest_lamp_share(std::span<const Sphere> lamps, std::span<const Material> materials, const Camera &camera);
 
-// Whether the samples are too few for a lamp or lobe that they find only by chance.
+// Whether the samples may have missed a lamp or lobe that they find only by chance.
 bool may_miss_lamps(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings,
                     std::uint64_t samples);
 
-// Raises the stated error to the error expected from lamps in view with too few samples. If the latter comes from few
-// hits and exceeds half of the stated error, the error becomes uncertain.
+// Raises the stated error to the error expected from lamps in view that have too few samples. If the expected error
+// comes from few hits and exceeds half of the stated error, the stated error becomes uncertain.
 void take_in_unmet_lamps(ErrorEstimate &error, const UnmetSquares &unmet, double value_count);
 
 } // namespace pt

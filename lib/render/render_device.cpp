@@ -11,7 +11,7 @@ namespace pt {
 
 namespace {
 
-// The fraction of a measured rate that another kernel is assumed to have.
+// A new kernel is assumed to have this fraction of the rate measured with another kernel.
 constexpr double share_assumed_of_learnt = 0.125;
 
 } // namespace
@@ -27,13 +27,13 @@ RenderDevice::RenderDevice(vulkan::Instance &instance, const vk::raii::PhysicalD
     under_way_.reserve(device_.policy().queue_depth);
 }
 
-// If the device hangs, its objects are leaked (vulkan/device_object.h).
+// If the device hangs, its objects are leaked (DeviceObject).
 RenderDevice::~RenderDevice() {
     if (!device_.comes_to_rest())
         device_.abandon();
 }
 
-// The present film does not count, because it is freed before the new one is touched.
+// The present film's memory counts as free, because set_film() frees it.
 DeviceFilm RenderDevice::make_film(const RenderSettings &settings) {
     const std::uint64_t bytes =
         std::uint64_t{settings.width} * settings.row_count * DeviceFilm::bytes_per_pixel(settings.coverage);
@@ -103,7 +103,7 @@ void RenderDevice::save_kernels() noexcept {
         device_.pipeline_cache().save(device_.log());
 }
 
-// A kernel that stays keeps its schedule, because samples cost about the same.
+// A kernel that is kept also keeps its schedule, because samples take about the same time.
 void RenderDevice::prepare(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings) {
     pipelines_->build_own(TracePipelines::OwnKernels::when_they_pay);
     if (kernel_ && &kernel_->scene() == scene.get())
@@ -182,7 +182,7 @@ BufferWriter &RenderDevice::buffer_writer() {
     return *buffer_writer_;
 }
 
-// The path tracer's kernel owns the buffers, and knows whether the device is too small for the scene.
+// The path tracer's kernel owns the scene's buffers and checks whether the device has room for them.
 void RenderDevice::read_first_hits(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings,
                                    const FirstHitQuery &query, const FirstHits::Receive &receive) {
     prepare(scene, settings);
@@ -220,7 +220,7 @@ ErrorReader &RenderDevice::bound_error_reader() {
     return *error_reader_;
 }
 
-// A void film has no parts to move. The first samples of a film clear it.
+// A film that is void has no sums to move. Its first samples clear it.
 void RenderDevice::start(const TileSlice &slice, const ErrorQuery *estimate) {
     if (!slice.takes && film_is_void_)
         return;

@@ -26,11 +26,11 @@ namespace pt {
 
 class RenderDevice {
 public:
-    // A slice should take `target_seconds`. vulkan::Device describes `caller`.
+    // `target_seconds` is the intended time of a slice. vulkan::Device describes `caller`.
     RenderDevice(vulkan::Instance &instance, const vk::raii::PhysicalDevice &physical_device,
                  const vulkan::DevicePolicy &policy, const KernelCode &code, double target_seconds,
                  const vulkan::CallerVulkan *caller = nullptr);
-    // Waits for running work, within the device's patience.
+    // Waits for running work, up to DevicePolicy's limit.
     ~RenderDevice();
     RenderDevice(const RenderDevice &) = delete;
     RenderDevice &operator=(const RenderDevice &) = delete;
@@ -56,21 +56,23 @@ public:
     void keep_kernels(const vulkan::KernelStore &store);
     void save_kernels() noexcept;
 
+    // Throws PT_ERROR_UNSUPPORTED if the device has too little memory.
     DeviceFilm make_film(const RenderSettings &settings);
     void set_film(DeviceFilm film);
 
     void discard_samples() noexcept;
 
-    // Makes the pipelines of the present kernel from other code. Throws PT_ERROR_SHADER if the driver refuses the code.
+    // Makes pipelines like the present kernel's from other code. Throws PT_ERROR_SHADER if the driver refuses the code.
     std::unique_ptr<TracePipelines> make_pipelines(const KernelCode &code);
     void set_pipelines(const KernelCode &code, std::unique_ptr<TracePipelines> pipelines) noexcept;
 
-    // Makes a kernel for this scene, or shows the scene to the present kernel. Needs a film. No work may be running.
+    // Makes a kernel for this scene, or uses the present kernel if it suits the scene. Needs a film. No work may be
+    // running.
     void prepare(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings);
 
     void prepare_ahead(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings);
 
-    // Builds everything that start() needs until the next prepare().
+    // Builds everything that start() needs until the next prepare(), because pt_poll must not build.
     void prepare_for_polls(bool with_errors);
 
     bool has_room() const { return under_way_.size() < device_.policy().queue_depth; }
@@ -80,7 +82,7 @@ public:
 
     bool estimates_behind() const { return device_.policy().resolve_on_device && film_->strips().size() == 1; }
 
-    // Requires has_room(). With `estimate`, also estimates the error for error_reader().collect(). This requires
+    // Requires has_room(). With `estimate`, also estimates the error for error_reader().collect(), which requires
     // estimates_behind().
     void start(const TileSlice &slice, const ErrorQuery *estimate = nullptr);
 
@@ -89,7 +91,7 @@ public:
 
     void look() { device_.look(); }
 
-    // Waits for the oldest slice. If its end was not noticed in time, `seconds` is estimated.
+    // Waits for the oldest slice. `seconds` is estimated if neither look() nor is_done() saw the slice end.
     struct Finished {
         std::uint64_t tile_samples; // 0 if another device took the samples
         double seconds;
@@ -113,7 +115,7 @@ private:
     KernelCode code_;
     std::unique_ptr<TracePipelines> pipelines_;
     double target_seconds_;
-    double tests_per_second_; // assumed until the first measurement
+    double tests_per_second_; // an assumption until the first measurement
     std::optional<ResolvePipelines> resolve_;
     std::optional<vulkan::ComputePipeline> estimate_;
     std::optional<vulkan::ComputePipeline> add_;

@@ -25,7 +25,7 @@ std::vector<pt_device_info> list_devices() {
     return describe_all(vulkan::Instance(Log{}, false));
 }
 
-// Reads the code first, so that errors in it touch no device.
+// Reads the code before it makes a device, because the code may have errors.
 Renderer::Renderer(const CreateSettings &settings) :
     source_(settings.shader_directory),
     code_(source_.read()),

@@ -1,4 +1,3 @@
-// The work behind pt_context.
 #pragma once
 
 #include "lib/base/error.h"
@@ -41,7 +40,7 @@ namespace pt {
 // A checked pt_create_info with defaults applied.
 struct CreateSettings {
     bool validation = false;
-    bool scene_kernels = true;    // where they are faster
+    bool scene_kernels = true;    // on devices where they are faster
     std::string device;           // empty for the best device
     std::string shader_directory; // empty for built-in kernels
     Log log;
@@ -56,8 +55,8 @@ struct CreateSettings {
 
 std::vector<pt_device_info> list_devices();
 
-// Methods throw pt::Error. A method that fails changes nothing, except that a lost device stays lost and complete
-// samples are kept. While samples are running, only poll(), cancel() and const methods may be called.
+// The methods of pt_context, with its rules for failures. While samples are running, only poll(), cancel() and const
+// methods may be called.
 class Renderer {
 public:
     explicit Renderer(const CreateSettings &settings);
@@ -78,7 +77,7 @@ public:
     // Discards the samples if a kernel has changed.
     void reload_shaders();
 
-    // If a driver refuses the code, no device uses it.
+    // If one driver refuses the code, no device uses it.
     void set_code(const KernelCode &code);
 
     // Builds the kernels that accumulate() needs.
@@ -87,19 +86,18 @@ public:
     // Returns PT_OK, PT_CANCELLED or PT_TARGET_REACHED.
     pt_result accumulate(const pt_accumulate_info &wanted);
 
-    // Does not wait. Returns PT_PENDING if samples are running, or PT_TARGET_REACHED.
+    // Returns PT_PENDING if samples are running, or PT_TARGET_REACHED.
     pt_result start(const pt_accumulate_info &wanted);
 
     struct Advance {
         pt_result result; // PT_PENDING while samples are running
-        double fraction;  // fraction of the samples
+        double fraction;  // finished fraction of the samples
     };
 
-    // Collects finished samples and starts more, for at most this time. After an exception no samples are running.
+    // After an exception no samples are running.
     Advance poll(std::uint64_t nanoseconds);
 
-    // Starts no more samples. poll() returns when begun samples have ended. Returns false if none are running.
-    // Thread-safe.
+    // Returns false if no samples are running. Thread-safe.
     bool cancel() noexcept { return cancellation_.ask(); }
     static constexpr const char *nothing_under_way = "no samples are under way: call pt_start first";
 
@@ -112,15 +110,15 @@ public:
     std::span<std::byte> map(const ImageLayout &layout);
 
     FilmHeader film_header();
-    void save_film(const FilmHeader &header, std::span<std::byte> bytes) const; // `bytes` has FilmLayout's size
+    void save_film(const FilmHeader &header, std::span<std::byte> bytes) const; // `bytes` must have FilmLayout's size
     void add_film(std::span<const std::byte> bytes);
 
     pt_stats stats();
 
-    // A statement about the visible scene (displacement.h), or NULL. Valid until the next call.
+    // See displacement.h. NULL if there is no warning. Valid until the next call.
     const BrokenRule *warning();
 
-    // Includes the error from lamps in view that few samples have hit.
+    // Includes the error from lamps in view with too few samples.
     ErrorEstimate error_with_lamps();
 
     std::vector<pt_function_accuracy> accuracy();
@@ -129,9 +127,9 @@ private:
     struct Job {
         double target_error; // relative; 0 for none
         MostSamples counts;
-        std::uint64_t together_to;        // all tiles are equal up to this count
+        std::uint64_t together_to;        // up to this count all tiles have equal samples
         bool is_together;                 // true below together_to
-        std::vector<std::uint64_t> goals; // by tile, where no error is checked
+        std::vector<std::uint64_t> goals; // by tile, if no error is checked
         Accumulation accumulation;
     };
 
@@ -178,7 +176,7 @@ private:
     FilmView view_{devices_};
     std::optional<PreparedScene> scene_;
     std::optional<Camera> camera_;
-    std::optional<RenderSettings> settings_;    // devices have films if this is set
+    std::optional<RenderSettings> settings_;    // if set, the devices have films
     std::shared_ptr<const GpuScene> gpu_scene_; // NULL after a change
     TileSamples samples_;
     AdaptiveRound round_;

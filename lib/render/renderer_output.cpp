@@ -20,7 +20,7 @@ namespace pt {
 
 namespace {
 
-// `quantity` must satisfy is_of_first_hits(). Translates the kernel's surface numbers to the caller's.
+// Translates the kernel's surface numbers to the caller's.
 void read_first_hits(const Image &image, const RenderSettings &settings, const std::shared_ptr<const GpuScene> &scene,
                      RenderDevice &device) {
     FirstHitQuery query{image.layout.pixels, image.layout.quantity, image.layout.format};
@@ -41,7 +41,8 @@ void read_first_hits(const Image &image, const RenderSettings &settings, const s
 
 } // namespace
 
-// Parallel rays may start far away, so the sizes of lamps are judged from the origin of the kernel's coordinates.
+// Parallel rays may start far away from the camera, so sizes of lamps are measured from the origin of the kernel's
+// coordinates.
 Camera Renderer::ray_start() {
     Camera start = *camera_;
     if (start.is_orthographic())
@@ -135,13 +136,13 @@ void Renderer::readback(const Image &image) {
     const bool is_of_hits = is_of_first_hits(image.layout.quantity);
     if (!is_of_hits)
         require_samples_of(image.layout.quantity);
-    if (is_of_hits) // One device is enough for few rays.
+    if (is_of_hits)
         read_first_hits(image, *settings_, gpu_scene_of_settings(), *devices_.front());
     else
         view_.read(image, query(image.layout), samples_);
 }
 
-// If no device makes the image in memory that the host reads, the host makes it.
+// If the device cannot compute the image in memory that the host can read, the host computes it.
 std::span<std::byte> Renderer::map(const ImageLayout &layout) {
     require_settings();
     if (!is_of_first_hits(layout.quantity)) {
@@ -155,7 +156,7 @@ std::span<std::byte> Renderer::map(const ImageLayout &layout) {
     return mapped_image_;
 }
 
-// A lent device is the only device, so its film has all samples.
+// The caller's device is the only device, so its film has all samples.
 void Renderer::readback(const BufferImage &image) {
     require_alive();
     if (!is_on_lent_device())

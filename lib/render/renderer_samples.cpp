@@ -29,7 +29,7 @@ std::uint64_t amount_of(const pt_accumulate_info &wanted, const TileGrid &grid) 
 
 } // namespace
 
-// New samples begin with the first missing sample from first_sample on.
+// Sets of samples get their missing samples from first_sample on.
 void Renderer::require_room_for(std::uint32_t sample_count) const {
     const std::uint64_t first = settings_->first_sample;
     for (const SampleSet &samples : samples_.sets()) {
@@ -62,7 +62,7 @@ void Renderer::begin(const pt_accumulate_info &wanted, bool is_polled) {
     }
 }
 
-// `is_polled` builds all kernels now, not on demand.
+// If `is_polled`, builds all kernels now.
 void Renderer::make_job(const pt_accumulate_info &wanted, bool is_polled) {
     require_settings();
     require_tiles(wanted);
@@ -104,7 +104,7 @@ void Renderer::end_job() noexcept {
     cancellation_.end();
 }
 
-// With short paths an error check costs much more than a sample, so tiles stay equal for longer.
+// With short paths an error check takes much longer than a sample, so tiles keep equal counts for longer.
 std::uint64_t Renderer::adaptive_from() const {
     const std::uint64_t samples = devices_.front()->device().policy().adaptive_from;
     return settings_->max_path_length > 2 ? samples : 4 * samples;
@@ -161,7 +161,7 @@ pt_result Renderer::advance(Accumulation::Clock::time_point until) {
     }
 }
 
-// Returns no value if a step has begun, or else the result.
+// Returns no value if a step has begun, otherwise the result.
 std::optional<pt_result> Renderer::next_step() {
     const auto unless_done = [](bool goes_on) { return goes_on ? std::nullopt : std::optional<pt_result>(PT_OK); };
     if (job_->is_together && samples_.of(0).count() < job_->together_to)
@@ -171,7 +171,7 @@ std::optional<pt_result> Renderer::next_step() {
     job_->is_together = false;
     if (!job_->goals.empty())
         return unless_done(job_->accumulation.set_goal_of_all([&](std::uint32_t tile) { return job_->goals[tile]; }));
-    // The film may take no more, but has too few samples for adaptive sampling.
+    // The limits allow too few samples for adaptive sampling.
     if (samples_.even() && samples_.of(0).count() < adaptive_from())
         return PT_OK;
     const AdaptivePlan plan(
@@ -205,7 +205,7 @@ void Renderer::forget_error() noexcept {
     rejected_samples_.reset();
 }
 
-// Completes begun samples. If this also fails, the films are void.
+// Completes begun samples, or discards all samples if this fails.
 void Renderer::give_up() noexcept {
     try {
         if (job_->accumulation.complete())

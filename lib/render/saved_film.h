@@ -10,20 +10,20 @@
 
 namespace pt {
 
-// Writes the sum of films of one size into memory of FilmLayout's size. `samples` are in all films together, which
-// cover `pixels` of the image. The header may have fewer pixels.
+// Writes the sum of films of one size into memory of FilmLayout's size. `samples` are the samples of all films
+// together, `pixels` their pixels in the image. The header may have fewer pixels.
 void save(std::span<DeviceFilm *const> films, const TileSamples &samples, const FilmHeader &header,
           const Rectangle &pixels, std::span<std::byte> bytes);
 
-// Returns the samples of each tile of a context with these pixels. Throws PT_ERROR_INCOMPATIBLE if the film has other
-// pixels, or different samples within a tile.
+// Returns the film's samples by tiles of a context with these pixels. Throws PT_ERROR_INCOMPATIBLE if the film has
+// other pixels, or different samples within a tile.
 TileSamples samples_of_film(const FilmHeader &film, const Rectangle &pixels);
 
-// Throws PT_ERROR_INCOMPATIBLE if both have a common sample in a tile.
+// Throws PT_ERROR_INCOMPATIBLE if both have the same sample of a tile.
 TileSamples united(const TileSamples &present, const TileSamples &added);
 
-// Adds a saved film and the other films to films[0]. Throws PT_ERROR_INCOMPATIBLE and changes nothing if the saved sums
-// are impossible for their samples. `all` is united(present, added).
+// Adds a saved film and the other films to films[0]. `all` must be united(present, added). If the saved samples cannot
+// have the saved sums, throws PT_ERROR_INCOMPATIBLE and changes nothing.
 void add(const FilmReader &film, const TileSamples &added, std::span<DeviceFilm *const> films,
          const TileSamples &present, const TileSamples &all, const Rectangle &pixels, vulkan::Device &device);
 

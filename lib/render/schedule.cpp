@@ -8,7 +8,7 @@ namespace pt {
 
 namespace {
 
-// A submission may take at most this many times the largest measured paths, because drivers have timeouts.
+// A submission may have at most this many times the paths of the largest measured one, because drivers have timeouts.
 constexpr double max_growth = 2.0;
 
 constexpr double paths_of_tile = gpu::WORKGROUP_SIZE;
@@ -29,7 +29,7 @@ std::uint64_t Schedule::samples(std::size_t tile_count, std::uint64_t most) cons
                                      std::min<std::uint64_t>(most, limits_.max_samples));
 }
 
-// Divides the tiles into the fewest equal submissions. A small last submission would be mostly overhead.
+// Divides the tiles into the fewest submissions of equal size, because a small last one would be mostly overhead.
 std::size_t Schedule::tiles(std::size_t left, std::uint64_t sample_count) const {
     const auto affordable = static_cast<std::size_t>(std::clamp(budget_ / paths_of(1, sample_count), 1.0, 0x1p32));
     const std::size_t shares = (left + affordable - 1) / affordable;
@@ -42,7 +42,7 @@ double Schedule::expected_seconds(double paths) const {
 
 // A submission takes an overhead o, and a time 1 / r for each path. One measurement cannot separate both, so time
 // beyond the expected time counts as overhead. The step x -> x t / (o + x / r) has the only stable fixed point x = r (t
-// - o), where a submission takes t = target_seconds.
+// - o). There a submission takes t = target_seconds.
 void Schedule::measured(double paths, double seconds) {
     if (!(seconds >= 0.0))
         return;

@@ -1,4 +1,4 @@
-// Sizes submissions to take equal times.
+// Chooses the sizes of submissions so that they take equal times.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ public:
 
     std::uint64_t samples(std::size_t tile_count, std::uint64_t most) const;
 
-    // How many of the remaining tiles the next submission takes, at least 1.
+    // Returns the number of remaining tiles in the next submission, at least 1.
     std::size_t tiles(std::size_t left, std::uint64_t sample_count) const;
 
     // Number of paths that should take the time of one submission.
@@ -26,6 +26,7 @@ public:
 
     double expected_seconds(double paths) const;
 
+    // Ignores negative times and NaN.
     void measured(double paths, double seconds);
 
 private:

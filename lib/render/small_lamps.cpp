@@ -12,14 +12,15 @@ namespace pt {
 
 namespace {
 
-// If a lamp covers more of a pixel, 16 samples hit it often enough. Calibrated.
+// A lamp that covers a larger fraction of a pixel is hit often enough by 16 samples. Calibrated.
 constexpr double largest_share = 0.5;
 
+// Lengths are in pixels, x and y from the image's top left corner.
 struct Disc {
     double x;
     double y;
-    double radius;
-    double size;
+    double radius; // with blur
+    double size;   // area without blur
 
     double area() const { return std::numbers::pi * radius * radius; }
     bool overlaps(std::uint32_t width, std::uint32_t height) const {
@@ -36,8 +37,8 @@ double ahead(double way) {
 }
 
 // Returns the distance along a unit vector at which a ray from the origin enters a ball, or leaves it if it starts
-// inside. The distance is infinite if the ray does not hit. A moving ball counts at its first position, which never
-// hides more than the whole path does.
+// inside; infinity if the ray misses. A moving ball counts at its first position, which never hides more than the whole
+// path does.
 double way_to(const MovingBall &ball, const glm::dvec3 &direction) {
     const double along = glm::dot(ball.open, direction);
     const double beside = glm::length(ball.open - along * direction);
@@ -90,8 +91,8 @@ struct Window {
     std::uint32_t row_count;
 };
 
-// `center` is relative to the camera and in front of it. A lens spreads each point over a disc. Radii are added as
-// squares, because variances add up.
+// `center` is relative to the camera and in front of it. The lens blurs each point to a disc. Squares of radii are
+// added, because they are proportional to variances.
 Disc disc_of(const glm::dvec3 &center, double radius, const Camera &camera, const Window &window) {
     const double depth = glm::dot(center, camera.forward);
     const double half_height = camera.is_orthographic() ? 0.5 * camera.vertical_extent : depth * camera.tan_half_fov;
@@ -102,8 +103,8 @@ Disc disc_of(const glm::dvec3 &center, double radius, const Camera &camera, cons
             std::hypot(seen_radius, scale * camera.spread(depth)), std::numbers::pi * seen_radius * seen_radius};
 }
 
-// Adds the pixels of a disc. Large discs are divided into squares of several pixels, which limits the number of pieces.
-// `of_disc` is the fraction of the disc's samples that hit the lamp.
+// Adds the pixels of a disc. Large discs are divided into squares of several pixels, to limit the number of pieces.
+// `of_disc` has the fraction of samples in the disc that hit the lamp.
 void add_pieces(std::vector<LampPiece> &pieces, std::size_t first, Disc disc, int lines, const LampPiece &of_disc,
                 const Window &window) {
     constexpr double few = 4.0; // squares along a radius
@@ -140,8 +141,8 @@ void add_pieces(std::vector<LampPiece> &pieces, std::size_t first, Disc disc, in
     }
 }
 
-// A moving lamp counts at several moments. If the lamp moves by more than a pixel from one moment to the next, each
-// moment also stands for the pixels between.
+// A moving lamp counts at several times of the shutter. If it moves by more than a pixel between two of them, each also
+// stands for the pixels between.
 void add_lamp(std::vector<LampPiece> &pieces, const PreparedScene &scene, const Camera &camera, const Window &window,
               const SeenSphere &lamp, const glm::dvec3 &emission) {
     constexpr double most_moments = 64.0;
@@ -207,7 +208,7 @@ struct UnmetPiece {
     double hits;
     double square;
     double relative_square;
-    double lack; // squares of pixels without a hit
+    double lack; // squares if no sample hits
     double relative_lack;
 };
 
@@ -232,7 +233,7 @@ void add(ExpectedSquares &to, double square, double hits) {
 } // namespace
 
 // The number of hits has a Poisson distribution. The pieces with the largest errors count as missed, as long as their
-// hits sum to less than one.
+// expected hits sum to less than one.
 UnmetSquares unmet_squares(const std::vector<LampPiece> &pieces, double offset, bool is_random,
                            const std::function<std::uint64_t(const LampPiece &)> &samples) {
     std::vector<UnmetPiece> unmet;

@@ -4,7 +4,7 @@
 
 namespace pt {
 
-// Tiles with fewer samples come first, because there are more of them and they keep a device busiest.
+// Tasks with fewer samples come first, because they have more tiles and keep a device busiest.
 TileTasks::TileTasks(const TileSamples &present, std::uint32_t first_sample, std::span<const std::uint32_t> tiles,
                      const Goal &goal) {
     for (const std::uint32_t tile : tiles) {
@@ -15,7 +15,7 @@ TileTasks::TileTasks(const TileSamples &present, std::uint32_t first_sample, std
         const auto same =
             std::ranges::find_if(tasks_, [&](const Task &task) { return task.set == set && task.wanted == wanted; });
         Task &task = same != tasks_.end() ? *same : add_task(set, wanted, present.of(tile), first_sample);
-        task.found.push_back(tile); // searched linearly: there are a few dozen tasks
+        task.found.push_back(tile);
     }
     for (Task &task : tasks_)
         task.tiles = task.found;

@@ -16,12 +16,12 @@ class TileTasks {
 public:
     using Goal = std::function<std::uint64_t(std::uint32_t)>;
 
-    // `tiles` must ascend. Tiles below their goal take the first consecutive samples that they lack from first_sample
-    // on. Samples beyond these need a new goal.
+    // `tiles` must ascend. Tiles below their goal take the first consecutive samples that they lack, from first_sample
+    // on. Further samples need a new goal.
     TileTasks(const TileSamples &present, std::uint32_t first_sample, std::span<const std::uint32_t> tiles,
               const Goal &goal);
 
-    // Requires equal samples in all tiles. The time does not depend on the number of tiles.
+    // For equal samples in all tiles. Takes a time that does not depend on the number of tiles.
     TileTasks(const SampleSet &present, std::uint32_t first_sample, std::span<const std::uint32_t> all_tiles,
               std::uint64_t goal);
 
@@ -29,12 +29,12 @@ public:
 
     bool empty() const { return tasks_.empty(); }
 
-    // Whether only some tiles of a task have begun its next samples.
+    // Whether only some tiles of the present task have begun its next samples.
     bool is_within_samples() const { return !empty() && tasks_.back().next_tile > 0; }
 
     TileSlice next(const Schedule &schedule);
 
-    // Whether a slice of this many tiles would be the last with its samples, or the last of all.
+    // Whether a slice of this many tiles is the last one with its samples, or the last of all.
     bool ends_samples(std::size_t tile_count) const;
     bool ends_all(std::size_t tile_count) const;
 
@@ -45,9 +45,9 @@ private:
     struct Task {
         std::uint32_t set;
         std::uint64_t wanted;
-        SampleRange before;
+        SampleRange before; // hull of present samples
         SampleRange samples;
-        SampleRange chunk{};
+        SampleRange chunk{}; // samples being taken
         std::vector<std::uint32_t> found{};
         std::span<const std::uint32_t> tiles{}; // ascending; either `found` or all tiles
         std::size_t next_tile = 0;

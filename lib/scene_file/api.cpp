@@ -17,8 +17,7 @@
 
 struct pt_scene_file {
     pt::SceneFile read;
-    std::size_t animated_count =
-        0; // number of overrides at the beginning of read.overrides that come from the animation
+    std::size_t animated_count = 0; // first overrides that come from the animation
     std::vector<pt_sphere_array> arrays;
     std::vector<std::string> column_paths;
     std::string message;

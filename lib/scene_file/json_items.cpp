@@ -160,8 +160,7 @@ private:
 
     void begin(bool is_array) {
         enter_value(is_array ? json::value_t::array : json::value_t::object);
-        levels_.push_back(
-            {{{}, is_array ? static_cast<std::size_t>(-1) : 0, is_array}}); // becomes 0 at the first element
+        levels_.push_back({{{}, is_array ? static_cast<std::size_t>(-1) : 0, is_array}});
     }
 
     // Passes items to the handler and discards them.

@@ -82,7 +82,7 @@ public:
     Least least(const Camera &camera, const std::function<double(const MovingBall &)> &of_region,
                 const std::function<double(const MovingBall &)> &of_sphere) const;
 
-    // Finds the sphere that reaches farthest from the middle of the others.
+    // Finds the sphere that reaches farthest from the median center.
     struct Farthest {
         std::uint32_t sphere; // scene index
         MovingBall surface;
