@@ -192,13 +192,6 @@ class RealDevice(CommandLineTest):
         self.assertEqual(told[0], list(json.loads(self.read("s.json"))))
         self.assertEqual(told[1], list(json.loads(self.errors.splitlines()[0])))
 
-    def test_exit_codes(self):
-        self.expect(0, "--help")
-        told = re.findall(r"^  (\d+) +(.*(?:\n {7}.*)*)$", self.output.split("Exit codes:\n")[1], re.MULTILINE)
-        table = re.findall(r"^\| (\d+) \| (.*) \|$", MANUAL, re.MULTILINE)
-        told = [(code, " ".join(text.split())) for code, text in told]
-        self.assertEqual([(code, text.replace("`", "").replace(" (--error)", "")) for code, text in table], told)
-
     def test_every_command_and_option_is_described(self):
         self.expect(0, "--help")
         commands = re.findall(r"^  (\w+) ", self.output.split("Commands:\n")[1].split("\n\n")[0], re.MULTILINE)
