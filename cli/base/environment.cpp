@@ -11,7 +11,7 @@
 namespace cli {
 namespace {
 
-// Zig lacks the runtime of the compiler's builtin.
+// Asks the processor, because Zig has no runtime for the compiler's __builtin_cpu_supports().
 bool has_avx512() {
 #if defined(__x86_64__)
     constexpr unsigned int needed = bit_AVX512F | bit_AVX512BW | bit_AVX512DQ | bit_AVX512VL;

@@ -15,7 +15,7 @@
 
 namespace cli {
 
-// `attempt` is the number of names already taken.
+// `attempt` counts the earlier names, which were taken.
 std::string temporary_name(int attempt);
 
 void remove_abandoned(const std::filesystem::path &folder);
@@ -31,7 +31,7 @@ public:
     void write(std::span<const std::byte> bytes);
     void commit();
 
-    // Leaves no file.
+    // Does not leave a file behind.
     static void check_writable(const std::string &path);
 
     // Symbolic links are followed, because a rename would replace the link. Refuses another user's link in a sticky

@@ -47,7 +47,7 @@ CLI::Option *add_number(CLI::App &command, const std::string &name, const ValueR
         command, name, rule, [&target](const nlohmann::json &value) { target = value.get<Number>(); }, help);
 }
 
-// find() returns the value of a name, if known. Messages call names `kind`.
+// find() returns the value of a known name. Messages call a name a `kind`.
 template <typename Target, typename Find>
 CLI::Option *add_name(CLI::App &command, const std::string &name, Target &target, Find find, std::string_view kind,
                       std::span<const std::string_view> names, const std::string &help) {

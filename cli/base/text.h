@@ -35,7 +35,7 @@ inline std::string counted(std::uint64_t count, const std::string &noun) {
     return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
-// The subject and the rule are at the ends, so the middle is removed.
+// Removes the middle of a long message, because its subject and its rule are at the ends.
 inline std::string shortened(const std::string &line) {
     constexpr std::size_t longest = 2000;
     constexpr std::size_t kept = 900;

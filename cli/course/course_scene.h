@@ -13,15 +13,16 @@ namespace cli {
 
 // ---- Five lamps above a tilted floor --------------------------------------------------------------------------------
 
-// Seen from above by parallel rays. The lamps are as far as the sky. One stands above, in red; two beside it are green,
-// the two opposite ones blue.
+// Seen from above by parallel rays. The lamps are as far away as the sky. The red lamp is above the floor, two green
+// lamps are beside it, and two blue ones are opposite.
 SceneFile lamps_above_a_floor(std::uint32_t side, std::uint32_t sample_count);
 
 using Channels = std::array<double, 3>;
 
-// How a kernel chooses directions from uniform ones on the sphere.
+// Turns a uniform direction on the sphere into the direction that a kernel takes.
 using Turn = std::function<glm::dvec3(const glm::dvec3 &direction, const glm::dvec3 &normal)>;
-using Weight = std::function<double(double cosine)>; // of a direction; 0 below the surface
+// Weight of a direction with this cosine to the normal; 0 below the surface.
+using Weight = std::function<double(double cosine)>;
 
 glm::dvec3 to_the_normals_side(const glm::dvec3 &direction, const glm::dvec3 &normal);
 glm::dvec3 absolute_z(const glm::dvec3 &direction, const glm::dvec3 &normal);
@@ -30,7 +31,8 @@ glm::dvec3 unturned(const glm::dvec3 &direction, const glm::dvec3 &normal);
 // Means of the picture, by quadrature over the sphere.
 Channels lamplight(const Turn &turn, const Weight &weight);
 
-// The same for directions of equal numbers in both dimensions: heights from `first` to `last`, and one full turn.
+// The same for a kernel that takes one number for both dimensions. Its directions lie on a spiral of one turn, with
+// heights from `first` to `last`.
 Channels lamplight_of_equal_numbers(double first, double last);
 
 // Exact values by form factors of spheres above a plane, sin^2 a cos (Snyder 1996).
@@ -38,17 +40,16 @@ Channels right_lamplight();
 
 // ---- A floor under the sky ------------------------------------------------------------------------------------------
 
-// The sky is yellow. The tilted floor reflects red diffusely and green in a lobe. It emits and reflects blue, so blue
-// is its own light, 1. One sample for each pixel.
+// The sky is yellow. The tilted floor reflects red diffusely and green in a lobe. It emits and reflects blue, so the
+// blue channel shows the floor's own light, 1. One sample for each pixel.
 SceneFile floor_under_the_sky();
 inline constexpr double floor_glossiness = 8.0;
 
 // ---- A ball around a lamp -------------------------------------------------------------------------------------------
 
-// Values of selftest's lamp_in_a_ball(): vertices after the first have the share `hit` of their light from the lamp,
-// and `missed` from the wall, of which `kept` goes on.
+// Radiance in selftest's lamp_in_a_ball(). A direction hits the lamp with the weight `hit`, and the wall with `missed`.
 double light_in_a_ball(double hit, double missed, int vertices = 3);
-double ball_cosine(); // of the half angle of the lamp's cone
+double ball_cosine(); // cosine of half the angle of the lamp's cone
 
 // A ball of emission 1 that reflects half, seen from its inside.
 SceneFile glowing_ball(std::uint32_t max_path_length);
@@ -77,7 +78,7 @@ std::vector<Range> disc_values(bool moves, const std::vector<DiscSample> &sample
 
 // ---- Scenes of the course -------------------------------------------------------------------------------------------
 
-// A file in cli/scenes has this name. The picture has 64x32 pixels.
+// Reads the file `name` in cli/scenes. The picture has 64x32 pixels.
 SceneFile course_scene(const std::string &name, std::uint32_t sample_count, std::uint32_t max_path_length,
                        std::uint32_t estimator);
 

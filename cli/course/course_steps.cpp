@@ -296,7 +296,7 @@ std::vector<Pattern> cosine_patterns() {
 // ---- 6b and 6c: lamps -----------------------------------------------------------------------------------------------
 
 constexpr std::uint32_t lamp_samples = 16;
-constexpr double most_needed = 2.0;    // samples for one of the library's
+constexpr double most_needed = 2.0;    // samples for each sample of the library's kernel
 constexpr double of_directions = 12.0; // larger, because only chance finds lamps
 
 SceneFile lamp_scene(const char *name) {
@@ -378,7 +378,7 @@ SceneFile equal_light(const char *name, std::uint32_t length, std::uint32_t esti
 
 } // namespace
 
-// Points of 2's directions, of 3's functions and of 6 are the exercise's; others divide the rest.
+// The exercise prescribes 6 points of step 2, 10 of step 3 and all of step 6. The other steps share the rest of 100.
 const std::vector<CourseStep> &course_steps() {
     static const std::vector<CourseStep> steps{
         {"1", "emission", 10, measure_emission, emission_patterns, {}},

@@ -37,7 +37,7 @@ struct Pattern {
 
 struct CourseVerdict {
     std::vector<Measured> measured;
-    std::vector<Range> expected; // of the right pattern that is nearest
+    std::vector<Range> expected; // values of the nearest right pattern
     std::optional<Pattern> fitting;
     std::string other_light; // summary of a test for equal light that failed, otherwise empty
 
@@ -47,7 +47,7 @@ struct CourseVerdict {
 // Returns the largest deviation from the pattern in units of the measurements' bounds.
 double misfit(std::span<const Measured> measured, const Pattern &pattern);
 
-// patterns must have a right one.
+// `patterns` must include a right one.
 CourseVerdict judge(std::vector<Measured> measured, std::span<const Pattern> patterns);
 
 } // namespace cli

@@ -97,7 +97,7 @@ private:
     std::uint32_t piece_rows_ = 0;
 
     Clock::time_point next_error_;
-    StoppingTest stopping_; // has no rules for a half
+    StoppingTest stopping_; // without rules if the image is a half
     Clock::time_point last_preview_ = start_;
     std::atomic<bool> has_preview_failed_ = false;
     RenderedImage preview_{};

@@ -90,7 +90,7 @@ void check_denoise(const RenderOptions &options) {
               "whole picture alone");
 }
 
-// A checkpoint that this run does not continue is protected. A failed writing does not end a rendering.
+// Refuses to overwrite a checkpoint that this run does not continue.
 void check_checkpoint(const RenderOptions &options) {
     if (options.checkpoint.empty())
         return;

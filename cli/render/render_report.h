@@ -21,7 +21,7 @@ struct RenderReport {
     std::string scene;
     pt_render render;
     ImageWindow window;
-    std::uint32_t requested_sample_count; // the most, if there is a target error
+    std::uint32_t requested_sample_count; // the maximum, if there is a target error
     double target_error;                  // 0 for none
     pt_stats stats;
     pt_error_estimate error;

@@ -100,7 +100,7 @@ void require(const Context &context, const RenderTask &task, pt_result result) {
 }
 
 bool describe_scene(const Context &context, const SceneFile &file, const std::function<bool(double)> &goes_on) {
-    std::function<bool(double)> listener = goes_on; // a copy that is not const
+    std::function<bool(double)> listener = goes_on; // pt_scene.progress_user is not const
     pt_scene scene = file.scene();
     const std::vector<pt_sphere_array> arrays = file.sphere_arrays();
     scene.sphere_arrays = arrays.data();

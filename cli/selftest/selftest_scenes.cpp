@@ -55,7 +55,7 @@ SelftestScene white_furnace() {
     return {"white furnace", scene, 1.0, 0.0, (3 * 1 + 3 * 5) * unit_roundoff};
 }
 
-// In so narrow a view the light varies by 1e-8.
+// The view is so narrow that the light varies by 1e-8.
 SceneFile floor_scene(const std::string &members, std::uint32_t side = 32, std::uint32_t sample_count = 64,
                       std::uint32_t max_path_length = 2) {
     return scene_of(side, sample_count, concat(R"(, "max_path_length": )", max_path_length, R"(},

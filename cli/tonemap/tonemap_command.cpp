@@ -73,7 +73,7 @@ std::vector<float> alpha_of(const DecodedImage &image, const ImageFormat &format
     return alpha;
 }
 
-// Keeps the file's facts about its rendering, and adds the tone mapping.
+// Keeps the file's attributes, and adds attributes of the tone mapping.
 std::vector<ImageAttribute> attributes_of(const DecodedImage &image, const ToneMap &tone_map) {
     std::vector<ImageAttribute> attributes{{"software", "pt " + version_text()}};
     for (const ImageAttribute &each : image.attributes) {

@@ -82,7 +82,7 @@ def _install(guard: CallbackGuard) -> None:
 def _remove(guard: CallbackGuard) -> None:
     with _lock:
         _guards.remove(guard)
-        if not _guards and isinstance(sys.unraisablehook, _Hook):  # If another hook has replaced this one, it still calls this one.
+        if not _guards and isinstance(sys.unraisablehook, _Hook):  # A hook that has replaced this one may still call it.
             sys.unraisablehook = sys.unraisablehook.before
 
 

@@ -30,7 +30,7 @@ def encode_exr(radiance: npt.NDArray[np.float32]) -> bytes:
         halves = np.concatenate([data[0::2], data[1::2]]).astype(np.int16)
         halves[1:] = halves[1:] - halves[:-1] + 128
         packed = zlib.compress((halves & 255).astype(np.uint8).tobytes(), 4)
-        packed = packed if len(packed) < len(data) else data.tobytes()  # an uncompressed block is known by its size
+        packed = packed if len(packed) < len(data) else data.tobytes()  # readers detect an uncompressed block by its size
         blocks.append(struct.pack("<2i", row, len(packed)) + packed)
     places = len(header) + 8 * len(blocks) + np.cumsum([0, *map(len, blocks[:-1])])
     return header + places.astype("<u8").tobytes() + b"".join(blocks)

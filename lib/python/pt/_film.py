@@ -36,7 +36,7 @@ class FilmInfo:
     seed: int
     estimator: Estimator
     sampler: Sampler
-    lamp_sample_count: int  # samples of a pixel that hit all visible lamps smaller than a pixel; 0 without such lamps
+    lamp_sample_count: int  # samples that a pixel needs to hit all lamps smaller than a pixel; 0 without such lamps
     device: str  # models and drivers
     coverage: bool  # as in RenderSettings
 

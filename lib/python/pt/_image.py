@@ -20,8 +20,8 @@ class Image:
     error_estimate   for the whole image
     stats            counts and costs
     exposure         stops for _repr_png_ and save; None: automatic
-    coverage         the picture's alpha, shape (height, width), float32: the share of a pixel's samples that hit a
-                     surface; None unless RenderSettings.coverage asked for it
+    coverage         the picture's alpha, shape (height, width), float32: the fraction of samples that hit a surface; None
+                     without RenderSettings.coverage
     raw              for a denoised image the mean of the samples, to which standard_error belongs; else None
     sampler, estimator   of the settings; BEST also if unknown
     """

@@ -92,7 +92,6 @@ class SceneFile:
     """The contents of a scene file.
 
     samples   samples of a pixel; None if the file has no number
-    files     files of columns
     """
 
     scene: Scene
@@ -121,7 +120,7 @@ def load(path: Path, *, text: str | None = None, overrides: Mapping[str, Any] | 
     overrides   values in place of the file's, {"film.width": 640, "spheres[0].center": [0, 1, 0]}; later ones win
     frame       a frame of the file's animation; its number is added to the seed
 
-    InvalidSceneError, with file, line, value and rule. InvalidArgumentError: an override is wrong. FileError."""
+    Raises InvalidSceneError with the file's line, InvalidArgumentError for a wrong override, and FileError."""
     given = ([Override(f"{name}={json.dumps(value)}", name) for name, value in overrides.items()]
              if isinstance(overrides, Mapping) else list(overrides))
     handle = _Handle(path, text, given, frame)

@@ -7,7 +7,7 @@ import importlib
 from dataclasses import dataclass
 
 FIRST, LAST = "scene", "device"
-WORTH_ANOTHER_WORKER = ("estimator_version", "kernel", LAST)  # depend on workers, not on the picture
+WORTH_ANOTHER_WORKER = ("estimator_version", "kernel", LAST)  # independent of the picture
 CHECKSUM_BYTES = 8
 
 

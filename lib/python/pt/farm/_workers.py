@@ -40,7 +40,7 @@ class Member:
     tries: dict[Any, Try] = field(default_factory=dict)
     introduction: Any = None
     failures: int = 0
-    is_late: bool = False  # gets nothing until it returns something
+    is_late: bool = False  # a late worker gets no part until it returns one
     is_banned: bool = False
 
     @property

@@ -173,8 +173,8 @@ def _of_types(particles: Particles, radii: Mapping[str, float]) -> Array:
 
 
 def typical_radius(positions: Array) -> float:
-    """Half of the distance between most nearest neighbours, so most balls just touch. For random points, half of the median distance to the
-    fourth neighbour. Neighbours at the same place do not count."""
+    """Half of the distance between most nearest neighbours, so most balls just touch. For random points it is half of the
+    median distance to the fourth neighbour. Neighbours at the same place do not count."""
     first, fourth = _neighbour_distances(positions)
     if not len(first):
         return 1.0

@@ -11,7 +11,7 @@ from pt._vectors import Triple
 FloatArray = npt.NDArray[np.float64]
 
 DEFAULT_RADIUS = 1 / 50  # radius of a light without one, relative to its distance
-LEAST_RADIUS = 1e-6  # relative to the extent: a smaller lamp would be of a light on a surface
+LEAST_RADIUS = 1e-6  # relative to the extent; only a light on a surface would get a smaller lamp
 SUN_DISTANCE = 100.0
 LEAST_SHARE = 1 / 3  # a bright background dims lights at most to this fraction; by taste
 
@@ -26,7 +26,7 @@ class Light:
     place: Triple  # position, or the direction towards a directional light
     is_directional: bool = False
     attenuation: Triple = (1.0, 0.0, 0.0)
-    radius: float = 0.0  # of the visible ball; 0 without one
+    radius: float = 0.0  # radius of the visible ball; 0 without one
 
 
 @dataclass(frozen=True)
@@ -57,8 +57,8 @@ class Surroundings:
 
 def view_target(centers: FloatArray, radii: FloatArray, planes: list[Plane], position: Triple,
                 direction: Triple) -> FloatArray:
-    """The point on the viewing ray nearest to the middle of the spheres' bounding box. Without spheres ahead, the nearest plane's point on
-    the ray, or the point at distance 1."""
+    """The point on the viewing ray nearest to the middle of the spheres' bounding box. Without spheres ahead it is the point
+    on the nearest plane, or the point at distance 1."""
     start = np.array(position)
     way = np.array(direction) / np.linalg.norm(direction)
     distance = 0.0
@@ -75,7 +75,7 @@ def view_target(centers: FloatArray, radii: FloatArray, planes: list[Plane], pos
 
 
 def dimmed(lights: list[Light], background: Triple) -> list[Light]:
-    """Unlike Tachyon's, the background of pt gives light, so lights are dimmed."""
+    """Dims lights, because the background of pt gives light, unlike Tachyon's."""
     together = max(map(sum, zip(*(light.color for light in lights))), default=0.0)
     share = max(1.0 - max(background) / together, LEAST_SHARE) if together else 1.0
     return [replace(light, color=(share * light.color[0], share * light.color[1], share * light.color[2]))

@@ -20,10 +20,7 @@ MIN_CHANGE: Final = 0.01
 
 
 class BuiltIn:
-    """Renders the picture of an edited kernel with the library's own kernel, and compares them.
-
-    verdict   a sentence for the page; empty before the first comparison
-    """
+    """Compares the picture of an edited kernel with the library's. `verdict` is empty before the first comparison."""
 
     def __init__(self, device: str | None) -> None:
         self._device = device
@@ -54,8 +51,8 @@ class BuiltIn:
         return self._context is not None and self._count < count
 
     def step(self, edited: Context, count: int, seconds: float, stops: Callable[[float], bool]) -> bool:
-        """Takes samples for SHARE of the edited kernel's seconds, up to its number. Compares when both have twice as many samples as
-        before, or finally equally many. Returns whether it compared."""
+        """Takes samples for SHARE of the edited kernel's seconds, up to `count`. Compares when the samples have doubled, and when both
+        kernels have equally many. Returns whether it compared."""
         if self._context is None:
             return False
         self._owed += SHARE * seconds
@@ -89,7 +86,7 @@ class BuiltIn:
             self._cost = elapsed / taken
 
     def _take(self, found: Comparison) -> None:
-        """A difference that was once found stays, because the rate is for all comparisons together."""
+        """Keeps a difference once it is found, because the rate is for all comparisons together."""
         self._differs = self._differs or found.light == Light.DIFFERENT
         if found.light == Light.DIFFERENT or not self._differs:
             self.verdict = verdict_of(found)

@@ -19,7 +19,7 @@ class Look:
     """A page's display of the mean; other layers have their own.
 
     display   exposure (a number or "auto"), tonemap, gamma (None: the sRGB curve)
-    stops     exposure in use, which holds while an automatic one is not found again
+    stops     exposure in use; an automatic exposure is not computed while the camera moves
     """
 
     def __init__(self, display: dict[str, Any], stops: float = 0.0) -> None:
@@ -55,7 +55,7 @@ class Look:
 
 
 def _greys(values: Array, is_near_bright: bool) -> Array:
-    """Returns shares from 0 (least) to 1 (greatest). Infinite numbers are black."""
+    """Returns greys for numbers between the least and the greatest. Infinite numbers are black."""
     finite = np.isfinite(values)
     known = values[finite] if finite.any() else np.zeros(1)
     least, extent = known.min(), np.ptp(known)

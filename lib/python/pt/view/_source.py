@@ -44,7 +44,7 @@ class Source(Protocol):
         """Reads the contents anew. Raises Error, ValueError or OSError."""
 
     def explained(self, error: Exception) -> str:
-        """The error's message with the keys of the file."""
+        """Returns the message of an error, with names of keys in the file."""
 
     def saved(self, camera: Camera) -> tuple[str, bytes]:
         """Name and contents of a file with the scene and this camera."""

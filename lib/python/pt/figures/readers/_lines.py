@@ -19,7 +19,7 @@ from pt.figures._errors import DataError, module
 STANDARD_INPUT: Final = "-"
 PACKED_ENDINGS: Final = (".gz", ".zst", ".xz", ".bz2")
 BLOCK_BYTES: Final = 1 << 20
-LONGEST_LINE: Final = 1 << 24  # bytes; a longer line means that the file is not text
+LONGEST_LINE: Final = 1 << 24  # bytes; a file with a longer line is not text
 
 
 def _open_zstd(file: IO[bytes]) -> Any:

@@ -90,7 +90,7 @@ class Rows:
         self._are_words: list[bool] = []
 
     def read(self, count: int | None = None, marks: re.Pattern[bytes] | None = None) -> None:
-        """Reads exactly `count` rows, or all. Text that matches `marks` counts as blank."""
+        """Reads `count` rows, or all. Text that matches `marks` counts as blank."""
         lines = self.lines
         while count is None or self.count < count:
             first = lines.number + 1
