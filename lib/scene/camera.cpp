@@ -15,12 +15,12 @@ namespace {
 constexpr double default_vertical_fov = std::numbers::pi / 4.0;
 
 // The least sine s of the angle between `up` and the view. With u = 2^-53, errors are 2 u in forward, u in up and 2 u
-// in their cross product, which give 5 u / s in the unit vectors. For s >= 5 * 2^-29 this is below float32's rounding,
+// in their cross product, together 5 u / s in the unit vectors. For s >= 5 * 2^-29 this is below float32's rounding,
 // 2^-24.
 constexpr double min_sine = 0x1p-26;
 
 // The image plane's distance in pixels, height / (2 tan(fov / 2)), must be at most 1e18, so tan(fov / 2) >= 2^31 / 1e18
-// = 2.1e-9. For angles near pi the distance is at least 1e-16 in doubles.
+// = 2.1e-9.
 constexpr double min_vertical_fov = 1e-8;
 
 const char *fov_rule(double value) {
@@ -78,7 +78,7 @@ void check_fields(const pt_camera &camera) {
     violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
 }
 
-// Systems' tangents differ in the last bits, but films must match, so the tangent is rounded to 40 bits.
+// Rounds the tangent to 40 bits, because the last bits differ between systems and films of all systems must match.
 double tangent(double angle) {
     int exponent = 0;
     const double mantissa = std::frexp(std::tan(angle), &exponent);
@@ -98,8 +98,8 @@ Camera validated_camera(const pt_camera &source) {
     subject.require(target != position, "target", target, "must differ from position");
     violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
 
-    // A far point's blur is radius / focus times the image plane's distance. For focus >= radius this is at most the
-    // plane's distance.
+    // The blur of a far point has a radius of (lens radius / focus) times the image plane's distance, which must not
+    // exceed that distance.
     const double focus = camera.focus > 0.0 ? camera.focus : glm::distance(target, position);
     subject.require(camera.aperture <= 2.0 * focus, "aperture", camera.aperture,
                     "must be at most twice the focus (" + number_text(focus) + ")");

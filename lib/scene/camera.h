@@ -11,22 +11,22 @@ namespace pt {
 
 struct Camera {
     glm::dvec3 position;
-    glm::dvec3 right; // orthonormal with up and forward; right x up points backwards
+    glm::dvec3 right; // right, up and forward are orthonormal; right x up = -forward
     glm::dvec3 up;
     glm::dvec3 forward;
-    double tan_half_fov; // of half the vertical angle; 0 for parallel rays
-    double shutter_open; // 0 <= open <= close <= 1
+    double tan_half_fov; // tangent of half the vertical angle; 0 for parallel rays
+    double shutter_open; // 0 <= shutter_open <= shutter_close <= 1
     double shutter_close;
     double vertical_extent = 0.0; // height of an orthographic view; 0 for perspective
-    double start_distance = 0.0;  // from pt_camera.position (ray_start.h)
+    double start_distance = 0.0;  // distance of ray starts from pt_camera.position (ray_start.h)
     double start_radius = 0.0;    // radius of the disc where rays start; 0 for a point
     double lens_radius = 0.0;     // 0 for a pinhole or parallel rays
-    double focus = 0.0;           // along forward; 0 without a lens
+    double focus = 0.0;           // depth of the plane in focus; 0 without a lens
 
     bool is_orthographic() const { return vertical_extent > 0.0; }
     bool has_lens() const { return lens_radius > 0.0; }
 
-    // Radius of the disc that the rays of an image point fill at this depth.
+    // Returns the radius of the disc that the rays of an image point fill at this depth.
     double spread(double depth) const { return has_lens() ? lens_radius * std::abs(1.0 - depth / focus) : 0.0; }
 };
 

@@ -32,8 +32,8 @@ const char *color_rule(double value) {
     return value <= 1e18 ? nullptr : "must be <= 1e18";
 }
 
-// exp(-n a^2 / 2) falls to 1 / e at the angle a = sqrt(2 / n). Errors d = 2^-23 of float32 unit vectors change its
-// exponent by n a d = sqrt(2 n) d, which is 0.5% for n = 1e9.
+// A lobe exp(-n a^2 / 2) falls to 1 / e at the angle a = sqrt(2 / n). There errors d = 2^-23 of float32 unit vectors
+// change the exponent by n a d = sqrt(2 n) d, which is 0.5% for n = 1e9.
 const char *glossiness_rule(double value) {
     if (!std::isfinite(value))
         return "must be finite";
@@ -145,7 +145,7 @@ CheckedScene checked_scene(const pt_scene &scene, WorkProgress &progress) {
     const Subject whole(violations, "scene");
     check_counts(whole, scene, arrays);
     whole.require(scene.reserved == 0, "reserved", scene.reserved, "must be 0");
-    // If counts are wrong, the arrays may not exist.
+    // With wrong counts the arrays may not exist.
     violations.throw_if_any(PT_ERROR_INVALID_SCENE);
 
     const auto materials = elements(scene.materials, scene.material_count, "material", violations);

@@ -25,7 +25,7 @@ int widest_axis(std::span<const Place> places) {
     return width.x >= width.y && width.x >= width.z ? 0 : width.y >= width.z ? 1 : 2;
 }
 
-// Divides lamps along their widest extent into two parts of whole nodes.
+// Divides lamps along their largest extent into two parts that each fill whole nodes.
 void split(const LampTreeShape &shape, std::span<Place> places, std::uint64_t first_slot, std::uint64_t slot_count) {
     if (slot_count == 1)
         return;

@@ -7,8 +7,8 @@
 
 namespace pt {
 
-// The shape depends only on the number of lamps, so moving lamps needs no new kernel. The top has one to four groups of
-// four nodes. Each node has a group below it. The nodes of the last level are slots for lamps.
+// The shape of the lamp tree (gpu_layout.h). It depends only on the number of lamps, so moving lamps needs no new
+// kernel.
 class LampTreeShape {
 public:
     explicit LampTreeShape(std::uint32_t lamp_count);
@@ -33,8 +33,7 @@ private:
     std::uint32_t top_groups_;
 };
 
-// Returns emitting spheres in the order of slots, by their positions at time 1/2. If a camera does not see some as
-// lamps, the others keep their order.
+// Returns emitting spheres in the order of slots, by their positions at time 1/2.
 std::vector<std::uint32_t> order_in_lamp_tree(const Scene &scene);
 
 } // namespace pt

@@ -1,5 +1,4 @@
-// A ball that moves along a line, or a capsule, which fills the whole line at once. Only this file distinguishes the
-// two.
+// A ball that moves along a line, or a capsule, which occupies the whole line at once.
 #pragma once
 
 #include "lib/base/digest.h"
@@ -53,11 +52,11 @@ inline MovingBall seen_ball(const MovingBall &ball, const Camera &camera) {
             (camera.shutter_close - camera.shutter_open) * ball.way, ball.radius};
 }
 
-// Within this fraction of the radius, float32 may misplace points.
+// Float32 may be wrong about the side of a point that is within this fraction of the radius.
 inline constexpr double side_margin = 0x1p-16;
 
-// Balls that differ by more than this fraction of their radii are distinct. A distance d has an error of 2^-22 d. This
-// equals the fraction at 2^20 radii, where rounding of centers is visible anyway.
+// Balls that differ by more than this fraction of their radii are distinct. The error 2^-22 d of a distance d reaches
+// this only at 2^20 radii, where rounding of centers is visible anyway.
 inline constexpr double two_spheres = 0.25;
 
 inline double with_margin(double length) {
@@ -70,12 +69,12 @@ inline double least_distance(const glm::dvec3 &open, const glm::dvec3 &way) {
     return glm::length(open + nearest * way);
 }
 
-// Whether the origin is at any time inside the ball, or float32 cannot tell.
+// Whether the origin is at any time inside the ball. True if float32 cannot decide.
 inline bool may_hold_origin(const MovingBall &ball, double slack = 0.0) {
     return !(least_distance(ball.open, ball.way) > with_margin(ball.radius) + slack);
 }
 
-// Whether both surfaces nearly coincide. For capsules, one of the end balls suffices.
+// Whether both surfaces nearly coincide. For a capsule, one of its end balls suffices.
 inline bool nearly_coincide(const MovingBall &ball, const MovingBall &other) {
     const double apart = other.kind == Kind::capsule
                              ? std::max(least_distance(other.open - ball.open, other.way) - glm::length(ball.way), 0.0)
@@ -90,8 +89,8 @@ inline MovingBall ball_about(const MovingBall &ball) {
     return {ball.open + half, glm::dvec3(0.0), ball.radius + glm::length(half)};
 }
 
-// Whether the ball neither touches nor contains the surface. Relative motion is straight, so the greatest distance is
-// at an end.
+// Whether the ball never touches or contains the surface. Relative motion is straight, so the largest distance is at an
+// end.
 inline bool lies_apart(const MovingBall &ball, const MovingBall &surface) {
     const MovingBall about = ball_about(surface);
     const glm::dvec3 from = ball.open - about.open;
@@ -102,7 +101,7 @@ inline bool lies_apart(const MovingBall &ball, const MovingBall &surface) {
     return is_beside || is_within;
 }
 
-// The ball's word in the kernel (shaders/gpu_layout.h). If a capsule is so short that 1 / length overflows, it becomes
+// The ball's word in the scene buffer's block `motion` (gpu_layout.h). If 1 / length of a capsule overflows, it becomes
 // a ball.
 inline glm::vec4 way_word(const MovingBall &ball) {
     const glm::vec3 rounded = glm::vec3(ball.way) + 0.0F; // -0 becomes +0, for twins
@@ -116,7 +115,7 @@ inline MovingBall surface_of(const glm::dvec3 &open, double radius, const glm::v
     return {open, glm::dvec3(way), radius, way.w > 0.0F ? Kind::capsule : Kind::ball};
 }
 
-// Balls add nothing, so the digests of scenes without capsules stay.
+// Balls add nothing, so that scenes without capsules keep their digests in old films.
 inline void add_kind(Digest &digest, Kind kind) {
     if (kind != Kind::ball)
         digest.add(std::uint64_t{static_cast<std::uint8_t>(kind)} - 1);

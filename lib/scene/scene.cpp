@@ -11,7 +11,7 @@ namespace pt {
 
 namespace {
 
-// -0 equals 0, as in comparisons of materials.
+// Floats, because -0 must equal 0.
 using MaterialKey = std::array<float, 11>;
 
 MaterialKey key_of(const Material &material) {
@@ -20,7 +20,7 @@ MaterialKey key_of(const Material &material) {
             emission.r, emission.g, emission.b, glossiness, hidden ? 1.0F : 0.0F};
 }
 
-// Equal colored materials are shared.
+// Adds materials for spheres with their own color. Spheres with equal material and color share one.
 class ColoredMaterials {
 public:
     explicit ColoredMaterials(std::vector<Material> &materials) : materials_(materials) {}
@@ -83,11 +83,10 @@ void add(Digest &digest, const Material &material) {
     digest.add(material.specular);
     digest.add(material.emission);
     digest.add(static_cast<double>(material.glossiness));
-    if (material.hidden) // keeps the digests of other scenes
+    if (material.hidden) // other scenes keep their digests
         digest.add(std::uint64_t{PT_MATERIAL_HIDDEN_FROM_CAMERA});
 }
 
-// Numbers materials in order of use.
 std::string digest_of(const Scene &scene) {
     Digest digest;
     std::map<MaterialKey, std::uint64_t> numbers;

@@ -31,7 +31,7 @@ inline bool is_glossy(const Material &material) {
     return material.specular != glm::vec3(0.0F);
 }
 
-// Opacities are in steps of 1 / TREE_OPACITY_STEPS. If all spheres are opaque, all have no_opacity.
+// Opacities are in steps of 1 / TREE_OPACITY_STEPS. If all spheres of a scene are opaque, all have no_opacity.
 inline constexpr std::int16_t no_opacity = -1;
 inline constexpr auto opaque = static_cast<std::int16_t>(gpu::TREE_OPACITY_STEPS);
 inline constexpr double least_opaque = 1.0 - 0.5 / gpu::TREE_OPACITY_STEPS;
@@ -43,7 +43,7 @@ inline double passing_share(std::int16_t opacity) {
 struct Sphere {
     glm::dvec3 center;
     double radius;
-    glm::dvec3 motion; // from time 0 to 1; for capsules from end to end
+    glm::dvec3 motion; // displacement from time 0 to 1; for capsules from end to end
     std::uint32_t material;
     Kind kind = Kind::ball;
     std::int16_t opacity = no_opacity;
@@ -60,16 +60,16 @@ struct Plane {
 };
 
 struct Scene {
-    std::vector<Material> materials; // the caller's, then materials of colored spheres
+    std::vector<Material> materials; // the caller's, then those of colored spheres
     std::vector<Sphere> spheres;     // pt_scene.spheres, then the arrays
     std::vector<Plane> planes;
     std::vector<std::uint32_t> array_starts = {};
-    std::vector<std::uint32_t> indices = {}; // indices in the caller's scene; empty if all are kept
+    std::vector<std::uint32_t> indices = {}; // indices in the caller's scene; empty if all spheres are kept
 };
 
 struct CheckedScene;
 
-// Takes all spheres, or those with the ascending indices `only`.
+// Takes all spheres, or only those with the indices `only`, which must ascend.
 Scene owned_scene(CheckedScene checked, const std::vector<std::uint32_t> *only = nullptr);
 
 // The place of a sphere in messages.
@@ -83,8 +83,8 @@ SpherePlace place_of_sphere(const Scene &scene, std::size_t position);
 
 SpherePlace place_of_index(const Scene &scene, std::size_t index);
 
-// Films tell scenes apart by this digest of the surfaces and their materials. The order of surfaces counts. Structs or
-// columns, unused materials, and the materials' order and repetition do not.
+// Films identify a scene by this digest of the surfaces and their materials. It depends on the order of surfaces. It
+// does not depend on unused materials, the order and repetition of materials, or the use of structs or columns.
 std::string digest_of(const Scene &scene);
 
 void add(Digest &digest, const Material &material);

@@ -10,24 +10,25 @@ namespace pt {
 
 namespace {
 
-// Spheres are nearly flat above this ratio of radius to distance. Below it, a hit loses at most 5 of float32's 24 bits.
+// Spheres with a larger ratio of radius to distance are nearly flat. Below it, a hit loses at most 5 of float32's 24
+// bits.
 constexpr double nearly_flat = 32.0;
 
-// Lamps have a larger ratio, because curved planes cannot be sampled as lamps, which adds noise. At this ratio the
-// surface has an error of 2^-24 R, 1/256 of the distance.
+// The ratio for lamps is larger, because curved planes cannot be sampled as lamps. At this ratio the error of the
+// surface, 2^-24 of the radius, is 1/256 of the distance.
 constexpr double nearly_flat_lamp = 65536.0;
 
 bool is_large(const SeenSphere &sphere, double ratio) {
     return sphere.kind == Kind::ball && sphere.radius > ratio * std::abs(sphere.height());
 }
 
-// Motion is relative to the camera, so its length counts as a distance.
+// The motion is compared like a distance from the camera.
 bool moves_little(const SeenSphere &sphere) {
     return sphere.radius > nearly_flat * glm::length(sphere.way);
 }
 
-// Whether a surface is too near for a sphere, and moves too far for a plane. Errors that are small compared with the
-// disc of ray starts are harmless.
+// Whether the surface is too near to be stored as a sphere, and moves too far to be stored as a plane. Errors that are
+// small compared with the disc of ray starts are harmless.
 bool moves_too_far(const SeenSphere &sphere, const Camera &camera) {
     return is_large(sphere, nearly_flat_lamp) && sphere.radius > nearly_flat_lamp * camera.start_radius &&
            !moves_little(sphere);
@@ -95,9 +96,9 @@ void require_held_motions(const SeenScene &seen, const Scene &scene, const Camer
                                    ") must move less than a 32nd of it while the shutter is open"});
 }
 
-// Let a be the center's distance from the disc's plane, and c its distance from the axis. Squared distances from the
-// disc's points are a^2 + max(c - radius, 0)^2 to a^2 + (c + radius)^2. The ball around a motion has a radius larger by
-// half of the motion. Float32's error is proportional to the ball's size or, for a huge ball, to its distance.
+// Rays start on a disc. Let a be the center's distance from the disc's plane, and c its distance from the disc's axis.
+// Squared distances between the center and points of the disc are a^2 + max(c - start_radius, 0)^2 to a^2 + (c +
+// start_radius)^2. A moving ball is replaced by the ball around its motion.
 bool divides_start(const MovingBall &ball, const Camera &camera, double slack) {
     if (camera.start_radius == 0.0 || !may_hold_origin(ball, camera.start_radius + slack))
         return false;

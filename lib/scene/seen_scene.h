@@ -21,26 +21,26 @@ struct SeenSphere : MovingBall {
 
     SeenSphere(const Sphere &sphere, const Material &of_sphere, const Camera &camera, std::uint32_t of_index = 0);
 
-    // Distance of the camera from the surface as the shutter opens. Negative inside.
+    // Distance of the camera from the surface as the shutter opens; negative inside.
     double height() const { return distance - radius; }
 };
 
 // A plane, or a huge sphere as a slightly curved plane. For x relative to the camera and y = x + offset * normal:
 // dot(normal, y) + curvature / 2 * dot(y, y) = 0 as the shutter opens.
 struct CurvedPlane {
-    glm::dvec3 normal; // at the point nearest to the camera; outwards for a sphere
-    double offset;     // distance of the camera, positive on the normal's side
+    glm::dvec3 normal; // normal at the point nearest to the camera; outwards for a sphere
+    double offset;     // distance of the camera from the surface, positive on the normal's side
     double curvature;  // 1 / radius; 0 for a plane
     glm::dvec3 way;
     std::uint32_t material;
-    std::uint32_t index; // index into Scene::planes, or into Scene::spheres if curved
+    std::uint32_t index; // index into Scene::planes, or into Scene::spheres for a sphere
     bool hidden = false;
 };
 
 CurvedPlane curved_plane(const Plane &plane, const Material &of_plane, const Camera &camera, std::uint32_t index = 0);
 
-// sphere.is_flat must hold. A center and radius in float32 would give the surface an error of 2^-24 of the radius. The
-// plane's error is 2^-24 of the scene's size.
+// sphere.is_flat must be true. With center and radius in float32, the surface would have an error of 2^-24 of the
+// radius. The curved plane has an error of 2^-24 of the scene's size.
 CurvedPlane curved_plane(const SeenSphere &sphere);
 
 struct SeenScene {
@@ -55,10 +55,10 @@ struct SeenScene {
 
 SeenScene seen_scene(const Scene &scene, const Camera &camera);
 
-// Throws PT_ERROR_UNSUPPORTED if a nearly flat sphere moves too far. Rays start at `camera` (lib/kernel/ray_start.h).
+// Throws PT_ERROR_UNSUPPORTED if a nearly flat sphere moves too far. Rays start at `camera` (ray_start.h).
 void require_held_motions(const SeenScene &seen, const Scene &scene, const Camera &camera);
 
-// Whether parallel rays may start on both sides of a surface, or float32 cannot tell.
+// Whether parallel rays may start on both sides of a surface. True if float32 cannot decide.
 bool divides_start(const MovingBall &ball, const Camera &camera, double slack = 0.0);
 bool divides_start(const CurvedPlane &flat, const Camera &camera);
 

@@ -14,10 +14,10 @@ namespace pt {
 
 namespace {
 
-// Catches an uninitialised count before arrays are read.
+// Detects an uninitialised count before arrays are read.
 constexpr std::uint32_t max_array_count = 65536;
 
-// Also catches NumPy's negative strides.
+// Also detects negative strides of NumPy.
 constexpr std::uint32_t max_stride = (std::uint32_t{1} << 31) - 1;
 
 struct ElementType {
@@ -32,12 +32,12 @@ constexpr ElementType index_type{[](std::uint32_t type) { return type == PT_TYPE
 constexpr ElementType color_type{[](std::uint32_t type) { return real_type.is(type) || type == PT_TYPE_SRGB8; },
                                  "must be PT_TYPE_FLOAT32 (1), PT_TYPE_FLOAT64 (2) or PT_TYPE_SRGB8 (4)"};
 
-// Branches on the sign would be mispredicted.
+// Tests abs(value), because branches on the sign would be mispredicted.
 bool is_coordinate(double value) {
     return is_length(std::abs(value));
 }
 
-// Lamps are sampled by the cone around a ball, so capsules must be dark.
+// Lamps are sampled by the cone around a ball, so capsules must not emit.
 const char *const dark_rule = "must be of a material without emission: capsules are no lamps";
 
 bool is_dark(const pt_material &material) {

@@ -12,7 +12,7 @@
 
 namespace pt {
 
-// Indices and memory are designed for this many spheres in all.
+// The largest number of spheres in a scene.
 constexpr std::uint64_t max_sphere_count = std::uint64_t{1} << 26;
 
 // Throws PT_ERROR_INVALID_ARGUMENT or PT_ERROR_UNSUPPORTED for a wrong struct_size.
@@ -20,7 +20,7 @@ std::vector<pt_sphere_array> copied_sphere_arrays(const pt_scene &scene, Violati
 
 double elements_of(std::span<const pt_sphere_array> arrays);
 
-// An element is a unit of work. Unreadable columns are skipped.
+// Each element is a unit of work. Columns that cannot be read are skipped.
 void check_sphere_arrays(std::span<const pt_sphere_array> arrays, std::span<const pt_material> materials,
                          Violations &violations, WorkProgress &progress);
 

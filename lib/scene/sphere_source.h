@@ -18,10 +18,10 @@
 
 namespace pt {
 
-// Valid only during the call. Several threads may read it.
+// Valid only during pt_set_scene.
 class SphereSource {
 public:
-    // Structs come first, then arrays. All obey sphere_array_rules.h.
+    // Structs come first, then arrays. All must obey sphere_array_rules.h.
     SphereSource(std::span<const pt_sphere> spheres, std::span<const pt_sphere_array> arrays);
 
     std::size_t size() const { return starts_.back(); }
@@ -32,17 +32,17 @@ public:
 
     bool are_mere_balls() const { return others_count_ == 0; }
 
-    // Ascending indices. None if there are more than `most`.
+    // Returns the indices of spheres that are no balls, ascending. Returns none if there are more than `most`.
     std::vector<std::uint32_t> other_kinds(std::size_t most) const;
 
     // for_each() is faster for many spheres.
     Sphere operator[](std::uint32_t index) const;
     glm::vec3 color(std::uint32_t index) const;
 
-    // Each sphere, or each array with one material, is a unit of work.
+    // Each sphere is a unit of work, and so is each array with a single material.
     void mark_materials(std::vector<bool> &used, WorkProgress &progress) const;
 
-    // Calls use(index, sphere, color) in order. `color` is a factor of the material's diffuse. Each sphere is a unit of
+    // Calls use(index, sphere, color) in order. `color` multiplies the material's diffuse. Each sphere is a unit of
     // work.
     template <typename Use>
     void for_each(WorkProgress &progress, Use use) const {

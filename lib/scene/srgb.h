@@ -1,4 +1,4 @@
-// Decodes sRGB bytes (IEC 61966-2-1). The table is made at compile time, so a scene's bits do not depend on a maths
+// Decodes sRGB bytes (IEC 61966-2-1). The table is made at compile time, so that bits do not depend on a mathematics
 // library.
 #pragma once
 

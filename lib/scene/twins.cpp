@@ -9,25 +9,25 @@ namespace pt {
 
 namespace {
 
-// Twins differ by at most 64 roundings of the radius. The error of a distance along a ray is a dozen roundings, and
-// paths may be farther away than the camera.
+// Radii of twins differ by at most this fraction, 64 roundings. The error of a distance along a ray is a dozen
+// roundings, and paths may be farther away than the camera.
 constexpr double same_size = 0x1p-18;
-// Relative to the distance. This is four times the spacing of float32.
+// A fraction of the distance: four times the spacing of float32.
 constexpr double same_place = 0x1p-21;
-// Positions have errors of 2^-22 of the distance, so planes that differ by more than this have distinct vertices.
-// Planes at this angle are indistinct only within 2^-14 of the distance from their intersection. Parallel planes are
-// indistinct only within 2^-14 of the horizon. Both strips are less than a pixel wide.
+// Planes that differ by more than this in direction and distance are distinct. Positions have errors of 2^-22 of the
+// distance. So planes at this angle coincide only within 2^-14 of the distance from their intersection, and parallel
+// planes only within 2^-14 of the horizon. Both strips are narrower than a pixel.
 constexpr double two_planes = 0x1p-8;
 
-// Not commensurable with a lattice of spheres: 1, sqrt(2) and sqrt(3) over sqrt(6).
+// (1, sqrt(2), sqrt(3)) / sqrt(6), which spheres on a lattice do not share.
 constexpr glm::dvec3 generic_direction(0.40824829046386307, 0.5773502691896258, 0.7071067811865476);
 
 double tolerance(const SeenSphere &sphere) {
     return std::min(same_size * sphere.radius + same_place * sphere.distance, two_spheres * sphere.radius);
 }
 
-// If planes agree within same_size, and the offset is small compared with the radius, centers and radii agree within
-// three times that.
+// If two curved planes agree within same_size, and the offset is small compared with the radius, centers and radii
+// agree within three times that.
 double reach(const SeenSphere &sphere) {
     return sphere.is_flat ? 4.0 * same_size * sphere.radius : tolerance(sphere);
 }
@@ -64,7 +64,7 @@ double reach(const CurvedPlane &) {
     return same_size;
 }
 
-// Elements, sorted by their places on a line.
+// Elements sorted by their places along generic_direction.
 class Line {
 public:
     template <typename Element>
@@ -118,7 +118,7 @@ bool has_close_lamps(const std::vector<SeenSphere> &spheres) {
     for (std::size_t i = 0; i < line.size(); ++i) {
         const SeenSphere &lamp = spheres[line.index(i)];
         const auto is_close = [&](std::uint32_t other) { return nearly_coincide(lamp, spheres[other]); };
-        // Capsules are sorted by their beginning, which may be far from the lamp.
+        // Capsules are sorted by one end, which may be far from the lamp.
         const auto is_in = [&](const SeenSphere &other) {
             return other.kind != Kind::ball && nearly_coincide(lamp, other);
         };

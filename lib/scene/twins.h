@@ -4,8 +4,8 @@
 
 namespace pt {
 
-// Float32 cannot tell the surfaces of twins apart. Only the first of them stays. Otherwise rounding would choose
-// differently for each ray of a path, and light would count twice or never.
+// A scene without twins, whose surfaces float32 cannot distinguish. Only the first twin is kept. Otherwise rounding
+// would choose another one for each ray of a path, and light would count twice or never.
 struct DistinctScene {
     SeenScene seen;
     bool close_lamps;

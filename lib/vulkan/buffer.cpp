@@ -20,7 +20,7 @@ using Usage = vk::BufferUsageFlagBits;
 constexpr vk::MemoryPropertyFlags host_visible = Property::eHostVisible | Property::eHostCoherent;
 constexpr vk::MemoryPropertyFlags host_readable = host_visible | Property::eHostCached;
 
-// Copying this much takes far longer than submitting.
+// Copying this much takes far longer than a submission's overhead.
 constexpr std::uint64_t max_staging_bytes = 16U << 20;
 
 struct Allocation {

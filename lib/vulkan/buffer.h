@@ -36,12 +36,12 @@ public:
     std::uint64_t size() const;
     vk::Buffer handle() const;
 
-    // Offsets and sizes are multiples of 4 bytes. Without mapped memory, these functions wait for the device.
+    // Offsets and sizes must be multiples of 4 bytes. Without mapped memory, these functions wait for the device.
     void upload(std::span<const std::byte> data, std::uint64_t offset);
     void download(std::span<std::byte> data, std::uint64_t offset);
     void download(std::span<const BufferPiece> pieces);
 
-    // The data is NULL if the host cannot access the buffer.
+    // data() is NULL if the host cannot access the buffer.
     std::span<std::byte> host_memory() const;
 
     void write(const vk::raii::CommandBuffer &commands, std::span<const std::byte> data) const;

@@ -26,7 +26,7 @@ std::string pointer_text(const void *pointer) {
                 BrokenRule{.subject = "vulkan", .member = field, .value = value, .rule = rule});
 }
 
-// An instance cannot report its version, but only devices of version 1.2 should have this function.
+// An instance cannot report its version, but only devices of Vulkan 1.2 should have this function.
 bool offers_version_1_2(const vk::raii::Instance &instance, VkDevice device) {
     return instance.getDispatcher()->vkGetDeviceProcAddr(device, "vkGetSemaphoreCounterValue") != nullptr;
 }
@@ -63,7 +63,7 @@ vk::raii::PhysicalDevice validated_physical_device(const vk::raii::Instance &ins
                                          [](const vk::raii::PhysicalDevice &device) { return *device; });
     if (found == devices.end())
         refuse("physical_device", pointer_text(caller.physical_device), "must be one of vulkan.instance");
-    // Calls beyond Vulkan 1.0 need this check first.
+    // This check must come before calls beyond Vulkan 1.0.
     const std::uint32_t device_version = found->getProperties().apiVersion;
     if (device_version >= VK_API_VERSION_1_2 && !offers_version_1_2(instance, caller.device))
         refuse("instance", pointer_text(caller.instance),

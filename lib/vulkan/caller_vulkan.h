@@ -35,7 +35,7 @@ struct CallerVulkan {
     QueueLock queue_lock;
 };
 
-// Checks the fields alone. Throws PT_ERROR_INVALID_ARGUMENT.
+// Checks the fields without calling Vulkan. Throws PT_ERROR_INVALID_ARGUMENT.
 CallerVulkan validated_vulkan(const pt_vulkan &vulkan);
 
 // Throws PT_ERROR_INVALID_ARGUMENT, or PT_ERROR_UNSUPPORTED for unsuitable devices. The caller's instance must outlive

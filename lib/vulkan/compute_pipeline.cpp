@@ -23,7 +23,7 @@ vk::raii::DescriptorSetLayout create_set_layout(const Device &device, std::span<
         {.bindingCount = static_cast<std::uint32_t>(described.size()), .pBindings = described.data()});
 }
 
-// Drivers accept wrong bindings, which edited kernels (pt_create_info.shader_dir) may have.
+// Edited kernels (pt_create_info.shader_dir) may have wrong bindings, which drivers accept.
 void require_bindings(std::span<const std::uint32_t> spirv, std::span<const Binding> bindings) {
     spirv::for_each_instruction(spirv, spirv::header_words, [&](spirv::Words instruction, std::size_t) {
         if (spirv::opcode_of(instruction) != spirv::OpDecorate)
@@ -69,7 +69,7 @@ vk::raii::Pipeline create_pipeline(Device &device, const vk::raii::PipelineLayou
         return pipeline;
     } catch (const vk::SystemError &error) {
         const pt_result result = result_of(static_cast<vk::Result>(error.code().value()));
-        // Drivers report faulty kernels by these results.
+        // Drivers return these results for invalid kernels.
         throw Error(result == PT_ERROR_INTERNAL || result == PT_ERROR_NO_DEVICE ? PT_ERROR_SHADER : result,
                     std::string("building a kernel: ") + error.what());
     }

@@ -11,7 +11,7 @@
 
 namespace pt::vulkan {
 
-// Offsets are multiples of Limits::storage_buffer_alignment, or of 256 bytes for texels.
+// Offsets must be multiples of Limits::storage_buffer_alignment, or of 256 bytes for texels.
 struct BufferRange {
     BufferRange() = default;
     BufferRange(const Buffer &whole) : buffer(whole.handle()), bytes(whole.size()) {}
@@ -44,13 +44,13 @@ struct Binding {
 
 class ComputePipeline {
 public:
-    // constants[i] has the specialization id i. Throws PT_ERROR_SHADER if the driver rejects the kernel.
+    // constants[i] is the value of constant_id i. Throws PT_ERROR_SHADER if the driver rejects the kernel.
     ComputePipeline(Device &device, std::span<const std::uint32_t> spirv, std::span<const Binding> bindings,
                     std::uint32_t push_constant_bytes, std::span<const std::uint32_t> constants);
 
     DescriptorSet bind(std::span<const BufferRange> ranges) const;
 
-    // Records group_count x rows workgroups. `offsets` has the dynamic bindings' offsets in bytes.
+    // Records group_count x rows workgroups. `offsets` are those of the dynamic bindings, in bytes.
     void dispatch(const vk::raii::CommandBuffer &commands, const DescriptorSet &set,
                   std::span<const std::byte> push_constants, std::uint32_t group_count,
                   std::span<const std::uint32_t> offsets = {}, std::uint32_t rows = 1) const;

@@ -21,25 +21,25 @@ namespace {
 constexpr std::uint64_t llvmpipe_loop_trips = 65'535;
 constexpr int first_mesa_without_limit = 25;
 
-// Larger ranges do not help. This one is a multiple of every alignment.
+// Larger ranges do not help. This range is a multiple of every alignment.
 constexpr std::uint32_t largest_uniform_range = 65'536;
 
-// A large GPU runs fewer at a time.
+// More than a large GPU runs at a time.
 constexpr std::uint32_t busy_gpu_invocations = 1U << 18;
 
-// Submissions aim at 0.05 seconds.
+// Submissions should take 0.05 seconds.
 constexpr std::chrono::seconds gpu_patience{10};
 constexpr std::chrono::nanoseconds wait_step = std::chrono::milliseconds{100};
 
-// Longer code waits for instruction fetches.
+// Longer unrolled code waits for instruction fetches.
 constexpr std::uint32_t gpu_unrolled = 16;
 
 constexpr std::uint32_t gpu_walk_trips = 8;
 
-// Sleeping and waking takes far less time.
+// Far longer than it takes a thread to sleep and wake.
 constexpr std::chrono::microseconds gpu_polling{300};
 
-// Drivers give the version only as text: "Mesa 22.3.6 (LLVM 15.0.6)".
+// Reads Mesa's version from a text: "Mesa 22.3.6 (LLVM 15.0.6)".
 bool ends_loops(const vk::PhysicalDeviceDriverProperties &driver) {
     constexpr std::string_view mesa = "Mesa ";
     const std::string_view info = driver.driverInfo;
@@ -151,7 +151,8 @@ Device::Device(Instance &instance, const vk::raii::PhysicalDevice &physical_devi
 Device::~Device() {
     if (!abandoned_ && comes_to_rest())
         return;
-    // vkDestroyDevice may wait for running work forever (NVIDIA 580.159). Destroying the instance first crashes.
+    // Releases the device instead of destroying it, because vkDestroyDevice may wait forever for running work (NVIDIA
+    // 580.159).
     pipeline_cache_.abandon();
     for (Submission &submission : submissions_) {
         submission.fence.release();
@@ -196,7 +197,7 @@ void Device::require_alive() const {
         throw Error(PT_ERROR_DEVICE_LOST, lost_message_);
 }
 
-// Making the message may fail, so lost_ is set first.
+// Sets lost_ first, because reason() may throw.
 void Device::lose(const std::function<std::string()> &reason) {
     lost_ = true;
     lost_message_ += ": " + reason();
@@ -234,7 +235,7 @@ Device::Ticket Device::start(const Record &record, const Semaphores &semaphores)
     return static_cast<Ticket>(free - submissions_.begin());
 }
 
-// Overdue submissions count as done, because finish() gives them up.
+// Overdue submissions count as done, because finish() does not wait for them.
 bool Device::is_done(Ticket ticket, Clock::time_point until) {
     Submission &submission = submissions_[ticket];
     while (!lost() && !is_overdue(submission)) {
@@ -292,10 +293,10 @@ bool Device::comes_to_rest() noexcept {
 }
 
 void Device::record_work(const vk::raii::CommandBuffer &commands, const Record &record) const {
-    commands.reset(); // The last recording may have failed.
+    commands.reset(); // the last recording may have failed
     commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
-    // Submitting makes the host's earlier writes visible (Vulkan, "Host Write Ordering Guarantees"). Fences make
-    // earlier submissions' writes available, and this barrier makes them visible.
+    // A submission makes the host's earlier writes visible (Vulkan, "Host Write Ordering Guarantees"). Fences make
+    // writes of earlier submissions available, and this barrier makes them visible.
     write_barrier(commands, device_stages, device_accesses);
     record(commands);
     write_barrier(commands, Stage::eHost, Access::eHostRead | Access::eHostWrite);
@@ -326,13 +327,13 @@ bool Device::look_at(Submission &submission, std::chrono::nanoseconds timeout) {
         }
         return ended;
     } catch (const vk::SystemError &error) {
-        // After an error, callers may destroy objects that running work uses.
+        // Waits, because after the error callers may destroy objects that running work uses.
         comes_to_rest();
         lose([&] { return error.what(); });
     }
 }
 
-// Looks again when overdue, because the work may have ended while this process was stopped.
+// Looks once more when the submission is overdue, because it may have ended while this process was stopped.
 void Device::wait(Submission &submission) {
     for (bool was_overdue = false; !look_at(submission, wait_time()); was_overdue = is_overdue(submission))
         if (was_overdue) {

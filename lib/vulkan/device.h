@@ -25,7 +25,7 @@ struct Limits {
     std::uint32_t max_uniform_range;
     std::uint32_t max_workgroup_count;
     std::uint64_t storage_buffer_alignment;
-    std::uint64_t loop_trip_budget; // The driver silently ends longer loops.
+    std::uint64_t loop_trip_budget; // the driver silently ends longer loops
 };
 
 // How the library uses a device. Tests override it.
@@ -33,29 +33,29 @@ struct DevicePolicy {
     std::chrono::nanoseconds patience;
     bool share_memory;
     bool scene_in_constants;
-    std::uint32_t invocations; // enough for a busy device; 0 for any number
-    std::uint32_t queue_depth; // 2 if the device would idle between submissions
+    std::uint32_t invocations; // enough to keep the device busy; 0: any number
+    std::uint32_t queue_depth; // submissions in flight; 2 if the device would idle between them
     // Active waiting before the thread sleeps.
     std::chrono::nanoseconds polling{0};
-    // Every such device achieves this rate. It sets the first slice's size.
+    // A rate that every such device achieves, for the size of the first slice.
     double tests_per_second = 2.5e8;
-    // Loops over up to this many surfaces are unrolled. On CPUs a tree is faster than longer loops.
+    // Loops over up to this many surfaces are unrolled. A tree replaces longer loops on CPUs.
     std::uint32_t unrolled = 112;
-    // Adaptive sampling starts at this many samples per pixel, or four times as many for paths of two vertices
-    // (lib/film/adaptive_rule.h). Earlier checks cost a GPU more than they save. 0, or a power of two >= 16.
+    // Adaptive sampling starts at this many samples per pixel, or four times as many for paths of two vertices. Earlier
+    // checks cost a GPU more time than they save. 0, or a power of two >= 16.
     std::uint32_t adaptive_from = 256;
-    std::uint32_t walk_trips = 0; // ID_WALK_TRIPS, for scenes with a tree
-    // CPUs are faster with integer comparisons (shaders/maths.glsl) and uniform buffers.
+    std::uint32_t walk_trips = 0; // WALK_TRIPS in specialization.h
+    // Use integer comparisons (maths.glsl) and uniform buffers, which are faster on CPUs.
     bool compiles_for_cpu = false;
     bool resolve_on_device = false;
 };
 
 DevicePolicy default_policy(const pt_device_info &info);
 
-// Lets a CPU take a GPU's code paths, without a time limit.
+// Makes a CPU use the code paths for GPUs, without a time limit.
 DevicePolicy gpu_like_policy();
 
-// Binary semaphores or null. The kernels wait for the first, and their end signals the second.
+// Binary semaphores or null. A submission waits for the first and signals the second.
 struct Semaphores {
     vk::Semaphore wait;
     vk::Semaphore signal;
@@ -63,8 +63,8 @@ struct Semaphores {
 
 class Device {
 public:
-    // The instance must outlive the device. A hanging device keeps both alive. If `caller` is NULL, the library creates
-    // its own device.
+    // The instance must outlive the device. If the device hangs, neither is destroyed. If `caller` is NULL, the library
+    // creates its own device.
     Device(Instance &instance, const vk::raii::PhysicalDevice &physical_device, const DevicePolicy &policy,
            const CallerVulkan *caller = nullptr);
     ~Device();
@@ -77,41 +77,43 @@ public:
     const DevicePolicy &policy() const { return policy_; }
     std::uint64_t allocated_bytes() const { return allocated_bytes_; }
 
-    // Drivers may promise memory that fails when used, so large allocations need this check.
+    // Must be checked before large allocations, because drivers may allocate memory that fails when it is used.
     bool has_memory(std::uint64_t bytes) const { return bytes <= info_.memory_bytes; }
 
     bool lost() const { return lost_; }
 
-    // Whether abandoned or overdue work is running. Objects that it uses must not be destroyed.
+    // Whether abandoned or overdue work may be running. Objects that it uses must not be destroyed.
     bool hangs() const;
 
-    // Keeps the device and its objects alive for ever.
+    // The device and its objects will not be destroyed.
     void abandon() noexcept { abandoned_ = true; }
 
+    // Throws PT_ERROR_DEVICE_LOST if the device is lost.
     void require_alive() const;
 
     using Record = std::function<void(const vk::raii::CommandBuffer &)>;
     using Ticket = std::uint32_t;
 
     // Submissions run in order and see earlier writes. The host sees writes after finish(). At most queue_depth + 2 may
-    // be in flight. One is for submit(), and one for a caller whose work waits on the device.
+    // be in flight: one more for submit(), and one for pt_readback_to_buffer.
     Ticket start(const Record &record, const Semaphores &semaphores = {});
 
     using Clock = std::chrono::steady_clock;
 
-    // Waits until the given time. Returns whether finish() would return at once.
+    // Waits until the given time at most. Returns whether finish() would return at once.
     bool is_done(Ticket ticket, Clock::time_point until);
 
-    // Notes which submissions have ended. finish() then knows their times better.
+    // Notes which submissions have ended, so that finish() knows their times better.
     void look();
 
     bool is_at_rest() const;
 
-    // Waits for a submission. Returns the seconds since its start or the previous submission's end, whichever is later.
-    // If only bounds are known, returns the nearest value to expected_seconds.
+    // Waits for a submission. Returns the seconds since its start or, if later, the end of the previous submission. If
+    // only bounds are known, returns the value within them nearest to expected_seconds.
     double finish(Ticket ticket, double expected_seconds = 0.0);
 
-    // Waits for all running work, even after finish() failed. Returns false if the patience ends first.
+    // Waits for all running work, also after finish() failed. Returns false if it takes longer than
+    // DevicePolicy::patience.
     bool comes_to_rest() noexcept;
 
     double submit(const Record &record) { return finish(start(record)); }
@@ -120,7 +122,7 @@ public:
     bool is_borrowed() const { return !device_.is_owned; }
     PipelineCache &pipeline_cache() { return pipeline_cache_; }
 
-    // Returns 32 hexadecimal digits for the device model, driver and code.
+    // Returns 32 hexadecimal digits that depend on device model, driver and code.
     std::string kernel_key(const std::string &code_digest) const;
 
     const vk::PhysicalDeviceMemoryProperties &memory_properties() const { return memory_properties_; }
@@ -146,7 +148,7 @@ private:
     struct Submission {
         vk::raii::CommandBuffer commands;
         vk::raii::Fence fence;
-        bool pending = false; // finish() is still to come.
+        bool pending = false; // finish() has not been called yet
         Clock::time_point start{};
         Clock::time_point last_look{};
         std::optional<Moment> end{};
@@ -177,7 +179,7 @@ private:
     std::uint64_t allocated_bytes_ = 0;
     std::string lost_message_ = "the device was lost";
     bool lost_ = false;
-    bool gave_up_ = false; // An overdue submission may still be running.
+    bool gave_up_ = false; // an overdue submission may still be running
     bool abandoned_ = false;
 };
 

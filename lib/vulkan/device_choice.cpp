@@ -154,7 +154,7 @@ std::size_t choose_device(std::span<const pt_device_info> devices, const std::st
 
 namespace {
 
-// Returns nothing if an item is a name, because names may contain commas.
+// Returns an empty list if an item is a name, because names may contain commas.
 std::vector<std::string> listed(const std::string &wanted) {
     std::vector<std::string> items;
     for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + 1) {

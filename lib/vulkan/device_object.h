@@ -6,7 +6,8 @@
 
 namespace pt::vulkan {
 
-// Running work still uses its objects (Vulkan, "Object Lifetime"), so a hanging device keeps them.
+// Owns a Vulkan object. If the device hangs, the object is not destroyed, because running work may use it (Vulkan,
+// "Object Lifetime").
 template <typename Object>
 class DeviceObject {
 public:

@@ -60,7 +60,6 @@ PFN_vkGetInstanceProcAddr loader() {
                 "no Vulkan loader: " + platform::module_error() + ": install the GPU's Vulkan driver");
 }
 
-// Lack of memory is not the drivers' fault.
 void throw_if_out_of_memory(const vk::SystemError &error, const std::string &what_was_being_done) {
     const pt_result result = result_of(static_cast<vk::Result>(error.code().value()));
     if (result == PT_ERROR_OUT_OF_HOST_MEMORY || result == PT_ERROR_OUT_OF_DEVICE_MEMORY)
@@ -74,7 +73,7 @@ vk::raii::Instance create_instance(const vk::raii::Context &context,
     vk::InstanceCreateFlags flags;
     if (contains(context.enumerateInstanceExtensionProperties(), &vk::ExtensionProperties::extensionName,
                  VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME)) {
-        // Drivers on top of another interface are listed only on request.
+        // Without this flag, drivers that are layers over another interface are not listed.
         extensions.push_back(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
         flags |= vk::InstanceCreateFlagBits::eEnumeratePortabilityKHR;
     }
@@ -97,7 +96,7 @@ vk::raii::Instance create_instance(const vk::raii::Context &context,
                            nullptr, *context.getDispatcher());
     try {
         return {context, instance};
-    } catch (const std::bad_alloc &) { // no memory for its function table
+    } catch (const std::bad_alloc &) { // no memory for the function table
         const PFN_vkVoidFunction destroy =
             context.getDispatcher()->vkGetInstanceProcAddr(instance, "vkDestroyInstance");
         reinterpret_cast<PFN_vkDestroyInstance>(destroy)(instance, nullptr);
@@ -105,8 +104,8 @@ vk::raii::Instance create_instance(const vk::raii::Context &context,
     }
 }
 
-// The loader unloads the drivers with the last instance. NVIDIA's driver (580.159) leaks static thread-local storage at
-// each load, until it cannot be loaded.
+// The loader unloads drivers with the last instance. NVIDIA's driver (580.159) leaks static thread-local storage at
+// each load, so after some loads it cannot be loaded.
 void keep_nvidia_driver_loaded() noexcept {
     for (const char *name : {"libGLX_nvidia.so.0", "libEGL_nvidia.so.0"})
         platform::keep_loaded(name);
@@ -115,7 +114,6 @@ void keep_nvidia_driver_loaded() noexcept {
 vk::raii::Instance owned_instance(const vk::raii::Context &context, const Log &log, bool validation) {
     const vk::DebugUtilsMessengerCreateInfoEXT messages = messenger_info(log);
     try {
-        // The messenger also reports the instance's creation and destruction.
         vk::raii::Instance instance = create_instance(context, validation ? &messages : nullptr);
         keep_nvidia_driver_loaded();
         return instance;

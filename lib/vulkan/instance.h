@@ -27,11 +27,11 @@ public:
 
     std::vector<vk::raii::PhysicalDevice> physical_devices() const;
 
-    // Keeps the Vulkan instance alive for ever, because its devices need it.
+    // The instance will not be destroyed, because a hanging device needs it.
     void abandon();
 
 private:
-    std::unique_ptr<const Log> log_; // The layer uses its address until destruction.
+    std::unique_ptr<const Log> log_; // the validation layer uses this address until destruction
     vk::raii::Context context_;
     vk::raii::Instance instance_;
     bool is_owned_;

@@ -19,7 +19,7 @@ std::uint32_t compute_family(const vk::raii::PhysicalDevice &device) {
 }
 
 vk::raii::Device create_device(const vk::raii::PhysicalDevice &physical_device, std::uint32_t queue_family) {
-    // Vulkan requires this extension where it exists.
+    // If a device has this extension, Vulkan requires that it is enabled.
     constexpr const char *portability_subset = "VK_KHR_portability_subset";
     std::vector<const char *> extensions;
     for (const vk::ExtensionProperties &extension : physical_device.enumerateDeviceExtensionProperties())
@@ -37,7 +37,7 @@ vk::raii::Device create_device(const vk::raii::PhysicalDevice &physical_device, 
                                                 nullptr, functions);
     try {
         return {physical_device, device};
-    } catch (const std::bad_alloc &) { // no memory for its function table
+    } catch (const std::bad_alloc &) { // no memory for the function table
         const PFN_vkVoidFunction destroy = functions.vkGetDeviceProcAddr(device, "vkDestroyDevice");
         reinterpret_cast<PFN_vkDestroyDevice>(destroy)(device, nullptr);
         throw;

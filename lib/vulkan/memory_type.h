@@ -10,8 +10,8 @@
 
 namespace pt::vulkan {
 
-// Returns the allowed types with any wanted set of properties, best first. Bit i of `allowed` is type i. Throws
-// PT_ERROR_UNSUPPORTED if there are none.
+// Returns the allowed types that have one of the wanted sets of properties, best first. Bit i of `allowed` is type i.
+// Throws PT_ERROR_UNSUPPORTED if there are none.
 inline std::vector<std::uint32_t> memory_types(const vk::PhysicalDeviceMemoryProperties &memory, std::uint32_t allowed,
                                                std::span<const vk::MemoryPropertyFlags> wanted_best_first) {
     std::vector<std::uint32_t> types;

@@ -15,12 +15,12 @@ namespace pt::vulkan {
 
 namespace {
 
-// Kernels of a context take far less.
+// Far more than the kernels of a context.
 constexpr std::uint64_t most_bytes = std::uint64_t{1} << 28;
 
 constexpr std::string_view magic = "ptkernel";
 
-// A header that guards drivers from damaged or foreign bytes.
+// A header that protects drivers from damaged or foreign bytes.
 struct KernelSeal {
     char magic[8];
     char key[32];
@@ -37,7 +37,6 @@ KernelSeal kernel_seal(const std::string &key, std::span<const std::byte> data) 
     return seal;
 }
 
-// Returns the bytes after the seal, or nothing if the seal does not match.
 std::span<const std::byte> unsealed_kernels(const std::string &key, std::span<const std::byte> bytes) {
     if (bytes.size() < sizeof(KernelSeal))
         return {};
@@ -78,7 +77,7 @@ void PipelineCache::load(const KernelStore &store, const Log &log) {
     }
 }
 
-// Cannot throw, because it runs at the end of successful calls.
+// Must not throw, because it runs at the end of successful calls.
 void PipelineCache::save(const Log &log) noexcept {
     if (!store_.store || !std::exchange(has_news_, false))
         return;

@@ -1,4 +1,4 @@
-// Waits for submissions in order. The destructor waits for all of them, even after errors.
+// Submissions that are finished in order. The destructor waits for all, even after errors.
 #pragma once
 
 #include "lib/vulkan/device.h"
@@ -16,7 +16,7 @@ public:
     ~SubmissionsUnderWay() {
         try {
             finish_all();
-        } catch (...) { // The failed call has reported the error.
+        } catch (...) { // the failed call has reported the error
         }
     }
 
