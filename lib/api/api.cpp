@@ -27,7 +27,7 @@ namespace pt {
 namespace {
 
 // This thread's last refused call. A call is refused if another call is running, or if the context belongs to another
-// process. The refusal cannot be stored in the context, whose error belongs to the running call.
+// process. The message cannot be stored in the context, because the running call uses its last_error.
 struct Refusal {
     const pt_context *context = nullptr;
     const char *message = nullptr;
@@ -39,7 +39,7 @@ struct Refusal {
 };
 thread_local Refusal refusal;
 
-// Runs a call that is also allowed while samples are being taken. A refused call does not touch the context.
+// Runs a call that is also allowed while samples are being taken.
 template <typename Call>
 pt_result guard_any_time(pt_context *context, Call &&call) noexcept {
     if (!context)
@@ -98,8 +98,8 @@ pt_accumulate_info validated_accumulate(const pt_accumulate_info *info, bool may
     return accumulate;
 }
 
-// Logs that a context in use was not freed. It logs once, because the log function may call pt_destroy itself. It logs
-// nothing in a forked child, where a thread that no longer exists may hold the log's lock.
+// Logs once that a context in use was not freed; the log function may call pt_destroy itself. Logs nothing in a forked
+// child, where the log's lock may be held by a thread that does not exist there.
 void refuse_to_destroy(pt_context &context, const char *reason) noexcept {
     const bool told = refusal.context == &context || context.in_use.not_of_this_process();
     refusal = {&context, reason};
@@ -109,8 +109,8 @@ void refuse_to_destroy(pt_context &context, const char *reason) noexcept {
         });
 }
 
-// Calls read() with the last error. If this thread was refused or may not see that error, calls read() with NULL and a
-// fixed message.
+// Calls read() with the last error. If this thread's call was refused or another thread is in a call, calls read() with
+// NULL and a fixed message.
 template <typename Read>
 auto read_last_error(const pt_context *context, Read &&read) noexcept {
     if (!context)
@@ -197,7 +197,7 @@ void pt_destroy(pt_context *context) {
     }
     pt::refusal.forget(context);
     const pt::DefaultRounding rounding;
-    delete context; // The context is still in use, so calls from its callbacks are refused.
+    delete context; // still marked as in use, so that calls from its callbacks are refused
 }
 
 pt_result pt_get_context_device(pt_context *context, pt_device_info *device) {
@@ -259,7 +259,7 @@ pt_result pt_poll(pt_context *context, uint64_t nanoseconds, double *fraction) {
     });
 }
 
-// Other threads may be in a call, so this touches only in_use and the request to cancel.
+// Another thread may be in a call, so this uses only in_use and the renderer's Cancellation.
 pt_result pt_cancel(pt_context *context) {
     if (!context)
         return pt::guard(pt::thread_last_error, [] { pt::require_not_null(nullptr, "context"); });
@@ -277,7 +277,7 @@ pt_result pt_cancel(pt_context *context) {
 pt_result pt_readback(pt_context *context, const pt_image *image) {
     return pt::guard_context(context, [&](pt::Renderer &renderer) {
         const pt_image target = pt::copy_in(image, "image");
-        // Without pt_set_render there is no size to check, and the renderer refuses the call.
+        // Without pt_set_render the renderer refuses the call.
         const bool sized = renderer.width() > 0;
         renderer.readback(
             sized ? pt::validated_image(target, renderer.width(), renderer.row_count(), pt::ImageSource::Context)
@@ -301,7 +301,7 @@ pt_result pt_map_image(pt_context *context, const pt_image *image, void **data, 
 pt_result pt_readback_to_buffer(pt_context *context, const pt_buffer_image *image) {
     return pt::guard_context(context, [&](pt::Renderer &renderer) {
         const pt_buffer_image target = pt::copy_in(image, "image");
-        // Without a lent device the renderer refuses the call, so no field matters.
+        // Without the caller's device or pt_set_render the renderer refuses the call.
         const bool sized = renderer.is_on_lent_device() && renderer.width() > 0;
         renderer.readback(sized ? pt::validated_image(target, renderer.width(), renderer.row_count())
                                 : pt::BufferImage{});

@@ -1,4 +1,3 @@
-// The C boundary of pixels for displays; see api.cpp.
 #include <pt/display.h>
 
 #include "lib/api/context.h"

@@ -74,7 +74,7 @@ pt_stats stats_of(const Film &film) {
     return stats;
 }
 
-// Writes the goals of all tiles. A tile outside the next step keeps its number of samples.
+// Writes the goals of all tiles. A tile outside the next step has its present number of samples as goal.
 pt_result write_plan(Film &film, double target_error, std::uint32_t most, std::uint32_t *goals, std::uint32_t &count) {
     const std::size_t tile_count = film.tile_count();
     if (!goals) {

@@ -16,11 +16,11 @@ namespace pt {
 
 class LastError {
 public:
-    // If there is no memory for the message, a fixed one without rules takes its place.
+    // Without memory for the message, stores a fixed one without rules.
     void store(std::string_view message, std::shared_ptr<const Violations> broken_rules = nullptr) noexcept {
         try {
             const std::string shown = platform::printable_lines(message);
-            text_ = std::string_view(shown); // Copying into text_ keeps its memory for later messages.
+            text_ = std::string_view(shown); // reuses the memory of text_
             shown_ = nullptr;
             broken_rules_ = std::move(broken_rules);
         } catch (...) {
@@ -35,7 +35,7 @@ public:
 
 private:
     std::string text_;
-    const char *shown_ = nullptr; // NULL, or the message in place of text_
+    const char *shown_ = nullptr; // NULL, or the message that replaces text_
     std::shared_ptr<const Violations> broken_rules_;
 };
 
@@ -59,7 +59,7 @@ private:
     }
 }
 
-// Rounds to nearest in its scope. Threads that a driver starts meanwhile inherit the mode.
+// Rounds to nearest in its scope. Threads that a driver starts in this scope inherit the mode.
 class DefaultRounding {
 public:
     DefaultRounding() noexcept : callers_(std::fegetround()) { set(FE_TONEAREST); }
@@ -77,8 +77,8 @@ private:
     int callers_;
 };
 
-// Runs the body of a C call. The body returns a pt_result or void (PT_OK), or throws. Exceptions of callbacks end here
-// too, because the caller may be written in C.
+// Runs the body of a C call, which returns a pt_result or void (PT_OK), or throws. Also catches exceptions of
+// callbacks, because the caller may be written in C.
 template <typename Call>
 pt_result guard(LastError &last_error, Call &&call) noexcept {
     const DefaultRounding rounding;

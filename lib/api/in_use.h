@@ -1,5 +1,5 @@
 // Records which thread is in a call on a context, because only one may be, and which process made the context, because
-// a forked child lacks the driver's threads.
+// a forked child does not have the driver's threads.
 #pragma once
 
 #include "lib/platform/process.h"
@@ -26,10 +26,10 @@ public:
 
     bool by_this_thread() const noexcept {
         return user_.load(std::memory_order_relaxed) ==
-               std::this_thread::get_id(); // memory_order_relaxed suffices: only this thread stores its id
+               std::this_thread::get_id(); // relaxed, because only this thread stores its id
     }
 
-    // Why calls of this process must not touch the context, or NULL. Thread-safe.
+    // Returns why this process must not use the context, or NULL. Thread-safe.
     const char *not_of_this_process() const noexcept {
         return platform::process_number() == process_
                    ? nullptr

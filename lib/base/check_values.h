@@ -1,4 +1,3 @@
-// The check of an array, value by value.
 #pragma once
 
 #include "lib/base/rules.h"
@@ -7,7 +6,7 @@
 
 namespace pt {
 
-// `values` may be NULL if there are none.
+// `values` may be NULL if count is 0.
 inline void check_values(const Subject &subject, const char *member, const float *values, std::size_t count,
                          Rule rule) {
     if (!values && count != 0) {

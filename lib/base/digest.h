@@ -1,4 +1,4 @@
-// XXH3 digests. They detect accidental changes, but not forgeries.
+// XXH3 digests. They detect accidental changes, but not deliberate ones.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -28,7 +28,7 @@ public:
 
     void add_bytes(std::span<const std::byte> bytes);
 
-    // The XXH3 of the concatenated bytes, if only add_bytes was called.
+    // If only add_bytes() was called, this is the XXH3 of the concatenated bytes.
     std::uint64_t checksum() const;
 
     std::string text() const;

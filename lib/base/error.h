@@ -29,7 +29,7 @@ struct BrokenRule {
     std::string text(const std::string &name_of_field) const;
 };
 
-// The rules that one call broke. There may be millions: the first ones are kept, all are counted.
+// The rules that one call broke. There may be millions, so only the first ones are kept. All are counted.
 class Violations {
 public:
     static constexpr std::size_t most_kept = 8;
@@ -42,7 +42,7 @@ public:
     const std::vector<BrokenRule> &first() const { return first_; }
     std::size_t count() const { return count_; }
 
-    // A line per kept rule, and the number of the others.
+    // Returns a line for each kept rule, and the number of the others.
     std::string text() const;
 
     void throw_if_any(pt_result code) const;
@@ -61,7 +61,7 @@ public:
 
     pt_result code() const { return code_; }
 
-    // NULL if the error concerns no rule. Shared, so that copying the exception allocates nothing.
+    // NULL if the error concerns no rule. Shared, because copies of an exception must not allocate.
     const std::shared_ptr<const Violations> &broken_rules() const { return broken_rules_; }
 
 private:

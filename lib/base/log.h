@@ -13,8 +13,8 @@ struct Log {
     pt_log_fn function = nullptr;
     void *user = nullptr;
 
-    // Passes the lines of a message to the function. Never throws, because drivers call it: the rest of the message is
-    // lost.
+    // Passes the lines of a message to the function. Must not throw, because drivers call it. After an exception the
+    // rest of the message is lost.
     void write(int32_t level, const std::string &message) const noexcept {
         if (!function)
             return;

@@ -1,6 +1,6 @@
-// Unpacks embedded SPIR-V (cmake/SpirvToHeader.cmake). The bytes hold hexadecimal digits, two per byte, the low one
-// first. A word begins with a digit n. If n is at most 8, n digits of the word follow. A larger n stands for one of
-// seven frequent words.
+// Unpacks embedded SPIR-V (cmake/SpirvToHeader.cmake). Each byte has two hexadecimal digits, the low one first. A word
+// begins with a digit n. If n is at most 8, n digits of the word follow. A larger n stands for one of seven frequent
+// words.
 #pragma once
 
 #include <array>

@@ -43,7 +43,7 @@ inline const char *finite_rule(double value) {
 constexpr double min_length = 1e-18;
 constexpr double max_length = 1e18;
 
-// float32 must hold squares of lengths as normal numbers (1e-36 > 2^-126), and squared distances as finite ones: a
+// In float32, squares of lengths must be normal numbers (1e-36 > 2^-126), and squared distances must be finite: a
 // component center + motion - position is at most 3e18, and 3 * (3e18)^2 = 2.7e37 < 2^128.
 constexpr bool is_positive_length(double value) {
     return value >= min_length && value <= max_length;
@@ -77,7 +77,7 @@ inline const char *share_rule(double value) {
     return is_share(value) ? nullptr : "must lie in [0, 1]";
 }
 
-// The field of a value, or for a product its first field and the rest of the message: {"width", "* height"}.
+// The field that has the value. A product has its first field and the rest of the text: {"width", "* height"}.
 struct Member {
     Member(const char *field, const char *others = "") : name(field), with(others) {}
 
@@ -110,7 +110,7 @@ public:
             refuse(member, number_text(value), broken);
     }
 
-    // Refuses an element of a column. Millions may be refused, so only those that are kept get a text.
+    // Refuses an element of a column. Millions may be refused, so a text is made only for those that are kept.
     template <typename Value>
     void refuse_element(const Member &member, std::size_t element, const Value &value, std::string_view rule) const {
         if (violations_.only_count())

@@ -13,7 +13,7 @@ inline glm::dvec3 vector(const double (&components)[3]) {
 }
 
 // v = vector * 2^exponent, with the largest component of vector in [1/2, 1). Only components below 2^-1000 of the
-// largest are rounded.
+// largest one are rounded.
 struct ScaledVector {
     glm::dvec3 vector;
     int exponent;
@@ -26,7 +26,7 @@ inline ScaledVector scaled(const glm::dvec3 &v) {
     return {{std::ldexp(v.x, -exponent), std::ldexp(v.y, -exponent), std::ldexp(v.z, -exponent)}, exponent};
 }
 
-// Returns v / |v| for finite v != 0. Multiplying by 1 / |v| would round twice, so that axes would not stay exact.
+// Returns v / |v| for finite v != 0. A product with 1 / |v| would round twice, and axes would not be exact.
 inline glm::dvec3 unit_vector(const glm::dvec3 &v) {
     const glm::dvec3 vector = scaled(v).vector;
     return vector / glm::length(vector);

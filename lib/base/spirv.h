@@ -73,7 +73,7 @@ constexpr std::uint32_t first_word(Opcode opcode, std::uint32_t word_count) {
 
 struct Unknown {};
 
-// Calls use(instruction, offset) for each instruction from offset on, until use returns false.
+// Calls use(instruction, offset) for each instruction from offset on, until it returns false.
 template <typename Use>
 void for_each_instruction(Words code, std::size_t offset, Use &&use) {
     while (offset < code.size()) {

@@ -19,7 +19,7 @@ void stream_copy(std::span<const std::byte> from, std::byte *to) {
     for (; done + lane <= from.size(); done += lane)
         _mm_stream_si128(reinterpret_cast<__m128i *>(to + done),
                          _mm_loadu_si128(reinterpret_cast<const __m128i *>(from.data() + done)));
-    _mm_sfence(); // makes the bytes visible to later reads, also of other threads
+    _mm_sfence(); // makes the bytes visible to later reads, also by other threads
 #endif
     std::ranges::copy(from.subspan(done), to + done);
 }

@@ -1,4 +1,4 @@
-// Copies without filling the processor's cache, for bytes that are not read soon.
+// Copies bytes that are not read soon, without filling the processor's cache.
 #pragma once
 
 #include <cstddef>

@@ -18,7 +18,7 @@ constexpr Struct sized() {
     return value;
 }
 
-// A size above 65536 shows an uninitialised field: structs have hundreds of bytes at most.
+// A size above 65536 means that the field is uninitialised.
 constexpr bool is_struct_size(std::uint32_t size) {
     return size >= sizeof size && size <= 65536;
 }
@@ -33,7 +33,7 @@ inline BrokenRule wrong_size(const char *name, std::int64_t index, std::uint32_t
     return {.subject = name, .index = index, .member = "struct_size", .value = std::to_string(size), .rule = rule};
 }
 
-// Reads and checks struct_size. name and index are for messages. index is -1 outside arrays. Throws
+// Reads and checks struct_size. name and index are for messages; index is -1 outside arrays. Throws
 // PT_ERROR_INVALID_ARGUMENT.
 inline std::uint32_t struct_size_of(const void *user, const char *name, std::int64_t index = -1) {
     require_not_null(user, name);
@@ -71,7 +71,7 @@ T copy_in(const T *user, const char *name, std::int64_t index = -1) {
     return copy;
 }
 
-// Writes all bytes after struct_size that both sides know. size is the caller's struct_size.
+// Writes the fields after struct_size that caller and library both have. size is the caller's struct_size.
 template <typename T>
 void copy_known(const T &result, T *user, std::uint32_t size) noexcept {
     constexpr std::size_t first = sizeof result.struct_size;

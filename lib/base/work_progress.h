@@ -1,4 +1,4 @@
-// Reports the progress of a long call, which is a sequence of stages, to the caller's pt_progress_fn.
+// Reports the progress of a long call to the caller's pt_progress_fn. The call is a sequence of stages.
 #pragma once
 
 #include <pt/pt.h>
@@ -20,15 +20,15 @@ public:
     WorkProgress(const WorkProgress &) = delete;
     WorkProgress &operator=(const WorkProgress &) = delete;
 
-    // Begins a stage. share_of_rest is its fraction of the remaining call, work its amount in any unit.
+    // Begins a stage. share_of_rest is its fraction of the remaining call, work its amount of work in any unit.
     void enter(double share_of_rest, double work) {
-        begin_ = end_; // a stage that ended early counts as done
+        begin_ = end_; // the previous stage counts as done
         end_ += share_of_rest * (1.0 - end_);
         work_ = work;
         done_ = 0.0;
     }
 
-    // Adds finished work. The number of elements decides when to report.
+    // Adds finished work. Reports after a number of elements.
     void add(double work, std::size_t elements) {
         done_ += work;
         untold_ += elements;

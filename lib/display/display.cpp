@@ -53,7 +53,8 @@ void check_numbers(const Subject &subject, const pt_display_info &info) {
         });
 }
 
-// The same factor of all channels keeps the bits of a display without a white point.
+// Without a white point all channels have the same factor, so that its bits do not depend on the white point's
+// rounding.
 Color scale_of(const pt_display_info &info) {
     const double brightness = std::exp2(
         info.automatic_exposure != 0 ? automatic_exposure({info.radiance, 3 * info.pixel_count}) : info.exposure);
@@ -64,7 +65,7 @@ Color scale_of(const pt_display_info &info) {
     return {brightness * (grey / white[0]), brightness * (grey / white[1]), brightness * (grey / white[2])};
 }
 
-// Divides by alpha. Without coverage the result is 0.
+// Divides by alpha. For alpha 0 the result is 0.
 float unassociated(float radiance, float alpha) {
     return alpha > 0.0F ? std::min(std::max(radiance, 0.0F) / alpha, std::numeric_limits<float>::max()) : 0.0F;
 }

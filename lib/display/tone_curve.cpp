@@ -26,7 +26,7 @@ Color clamp(Color color) {
 }
 
 // Reinhard, Stark, Shirley, Ferwerda 2002, "Photographic Tone Reproduction for Digital Images", eq. 3: Ld = L / (1 +
-// L). Applied to luminance, because saturated colors would be washed out if each channel were compressed alone.
+// L). Applied to luminance, because compression of each channel would desaturate colors.
 Color reinhard(Color color) {
     const double divisor = 1.0 + luminance(color);
     for (double &component : color)
@@ -57,7 +57,7 @@ Color agx(const Color &color) {
 
     Color signal = multiply(inset, color);
     for (double &component : signal) {
-        const double stops = std::clamp(std::log2(component), lowest, highest); // clamps log2(0) = -inf, too
+        const double stops = std::clamp(std::log2(component), lowest, highest); // also clamps log2(0) = -inf
         const double x = (stops - lowest) / (highest - lowest);
         const auto horner = [x](double sum, double coefficient) { return sum * x + coefficient; };
         component = std::accumulate(sigmoid.rbegin(), sigmoid.rend(), 0.0, horner);
@@ -77,7 +77,7 @@ Color neutral(Color color) {
     constexpr double desaturation = 0.15;
 
     const double least = *std::min_element(color.begin(), color.end());
-    // a parabola with the constant's value and slope at 2 * fresnel
+    // A parabola that joins the constant smoothly at 2 * fresnel.
     const double offset = least < 2.0 * fresnel ? least - least * least / (4.0 * fresnel) : fresnel;
     for (double &component : color)
         component -= offset;

@@ -1,4 +1,3 @@
-// Radiance to light of a display, and its encoding.
 #pragma once
 
 #include <array>

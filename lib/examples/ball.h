@@ -1,5 +1,5 @@
-/* Shared by examples: the scene of smallest.c, and the file of its picture. The file has linear radiance as floats.
- * GIMP and tev show it. */
+/* Shared by examples: the scene of smallest.c, and a function that writes a picture's linear radiance as floats (PFM).
+ * GIMP and tev show such files. */
 #ifndef BALL_H
 #define BALL_H
 
@@ -41,7 +41,7 @@ static inline pt_result set_up_ball(pt_context *context) {
     return result;
 }
 
-/* Returns 1 if the file is complete. PFM has the bottom row first. -1 means that the floats are little-endian. */
+/* Returns 1 if the file is complete. PFM has the bottom row first; -1 in its header means little-endian. */
 static inline int write_pfm(const char *path, const float *pixels) {
     FILE *file = fopen(path, "wb");
     int row;

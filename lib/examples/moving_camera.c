@@ -1,9 +1,9 @@
-/* A camera circles a ball. Each frame takes a few samples while the program does its other work, without threads. The
- * last frame goes to moving_camera.pfm.
+/* A camera circles a ball. Each frame takes a few samples while the program does other work, without threads. The last
+ * frame is written to moving_camera.pfm.
  *
  *     moving_camera [FRAMES [SAMPLES]]
  *
- * Exit status 0 if every frame was rendered and the last one written.
+ * Exit status 0 if every frame was rendered and the last one was written.
  */
 #include "ball.h"
 
@@ -12,7 +12,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* The longest wait in a poll, in nanoseconds. It is short for a program with 60 frames a second. */
+/* The longest wait in a poll. 2 ms are short for a program with 60 frames a second. */
 static const uint64_t poll_nanoseconds = 2000000;
 
 /* An interactive program handles input here, and draws the previous frame. */
@@ -31,7 +31,7 @@ static pt_result move_camera(pt_context *context, double turns) {
     return pt_set_camera(context, &camera);
 }
 
-/* The device works while the program goes on, but the program must poll. */
+/* The device works meanwhile, but the program must poll. */
 static pt_result render_frame(pt_context *context, const pt_accumulate_info *samples, const pt_image *image,
                               unsigned long *other_work) {
     pt_result result = pt_start(context, samples);
@@ -70,7 +70,7 @@ int main(int argc, char **argv) {
     const unsigned frames = argc > 1 ? (unsigned)strtoul(argv[1], NULL, 10) : 120;
     const pt_accumulate_info samples = {.struct_size = sizeof samples,
                                         .sample_count = argc > 2 ? (uint32_t)strtoul(argv[2], NULL, 10) : 2};
-    /* A moving camera never rests long enough for a kernel with the scene's numbers as constants to pay off. */
+    /* A kernel with the scene's numbers as constants would take more time than it saves, because the camera moves. */
     const pt_create_info create = {.struct_size = sizeof create, .flags = PT_CREATE_NO_SCENE_KERNELS};
     pt_context *context;
     pt_result result = pt_create(&create, &context);

@@ -1,7 +1,7 @@
-/* Your own Vulkan: the program makes instance, device and queue, lends them to a context that renders, and then uses
- * them again. A mutex guards the queue, as if several threads used it.
+/* Rendering on the program's own Vulkan device. The program makes instance, device and queue, passes them to a context,
+ * and uses them itself afterwards. A mutex guards the queue, as if several threads used it.
  *
- * Exit status 0 if the context rendered and the device then did the program's own work.
+ * Exit status 0 if the context rendered and the device then ran the program's own work.
  */
 #include <pt/pt.h>
 #include <pt/vulkan.h>
@@ -62,8 +62,8 @@ static VkResult choose_device(own_vulkan *own) {
     return VK_ERROR_INCOMPATIBLE_DRIVER;
 }
 
-/* pt needs no features and no extensions. Devices with VK_KHR_portability_subset are absent here, because Vulkan lists
- * them only if the instance asks for them. */
+/* pt needs no features. It needs no extensions either, because devices with VK_KHR_portability_subset are listed only
+ * if the instance requests them. */
 static VkResult make_device(own_vulkan *own) {
     const float priority = 1.0f;
     const VkDeviceQueueCreateInfo queue = {.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
@@ -133,7 +133,7 @@ static pt_result render_on(pt_context *context, float *pixels, uint64_t size_byt
     return result;
 }
 
-/* The context must be destroyed before the Vulkan objects lent to it. */
+/* The context must be destroyed before the Vulkan objects that it uses. */
 static pt_result render(own_vulkan *own, float *pixels, uint64_t size_bytes) {
     const pt_vulkan vulkan = {.struct_size = sizeof vulkan,
                               .queue_family = own->queue_family,

@@ -1,5 +1,5 @@
-/* Ten thousand particles have positions and colors in arrays, and one radius. pt_set_scene reads the arrays in place.
- * The picture goes to particles.pfm.
+/* Ten thousand particles have positions and colors in arrays, and a common radius. pt_set_scene reads the arrays in
+ * place. The picture is written to particles.pfm.
  *
  *     particles [COUNT [SAMPLES]]
  */
@@ -15,7 +15,7 @@ typedef struct particles {
     float radius;
 } particles;
 
-/* Arranges them in a sunflower's spiral, bent into a bowl: orange in the middle, blue at the rim. */
+/* Arranges the particles in a sunflower's spiral, bent into a bowl: orange in the middle, blue at the rim. */
 static void arrange(particles *all) {
     const double golden_angle = 2.39996322972865332;
     uint32_t i;

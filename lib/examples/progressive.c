@@ -1,5 +1,6 @@
-/* Progressive display. One thread renders in steps that double the samples. After each step it writes progressive.pfm
- * and prints the error. The main thread shows the step's progress. Ctrl-C or a time limit stops the program.
+/* Progressive display. A rendering thread works in steps that double the samples. After each step it writes
+ * progressive.pfm and prints the error. The main thread shows the progress of the step. Ctrl-C or a time limit stops
+ * the program.
  *
  *     progressive [SAMPLES [SECONDS]]
  *
@@ -20,7 +21,7 @@
 
 static atomic_int stop; /* set by a signal or the main thread, read by the rendering thread */
 
-/* Shared by both threads. While the rendering thread runs, only this thread uses the context. */
+/* Shared by both threads. While the rendering thread runs, only that thread uses the context. */
 typedef struct render_job {
     pt_context *context;
     uint32_t samples;
@@ -35,7 +36,7 @@ static void request_stop(int signal_number) {
     atomic_store(&stop, 1);
 }
 
-/* Runs on the rendering thread, after every submission. A result other than 0 ends pt_accumulate with PT_CANCELLED. */
+/* Called on the rendering thread. A result other than 0 ends pt_accumulate with PT_CANCELLED. */
 static int32_t on_progress(void *user, double fraction) {
     render_job *job = user;
     atomic_store(&job->step_permille, (int)(fraction * 1000.0));
@@ -66,7 +67,7 @@ static pt_result show(render_job *job, uint32_t sample_count) {
     return result;
 }
 
-/* The steps do not change the image's bits. */
+/* The split into steps does not change the image's bits. */
 static pt_result render_in_steps(render_job *job) {
     pt_stats stats = {.struct_size = sizeof stats};
     pt_accumulate_info step = {.struct_size = sizeof step, .sample_count = 1};
@@ -77,7 +78,7 @@ static pt_result render_in_steps(render_job *job) {
     while (result == PT_OK && stats.sample_count < job->samples) {
         const uint32_t missing = job->samples - stats.sample_count;
         step.sample_count = step.sample_count < missing ? step.sample_count : missing;
-        const pt_result accumulated = pt_accumulate(job->context, &step); /* PT_CANCELLED keeps whole samples */
+        const pt_result accumulated = pt_accumulate(job->context, &step); /* PT_CANCELLED keeps complete samples */
         result = accumulated < 0 ? accumulated : pt_get_stats(job->context, &stats);
         if (result >= 0 && stats.sample_count > 0)
             result = show(job, stats.sample_count);
@@ -95,7 +96,7 @@ static void *render_thread(void *user) {
     return NULL;
 }
 
-/* Waits for the thread. After `seconds` it asks the thread to stop, but not before an image was shown. 0: never. */
+/* Waits for the thread. After `seconds`, asks it to stop as soon as an image was shown. 0: never. */
 static void watch(render_job *job, double seconds) {
     const struct timespec pause = {0, 20000000};
     double waited = 0.0; /* a little less than the true time */

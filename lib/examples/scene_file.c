@@ -10,7 +10,7 @@
 
 enum { MOST_OVERRIDES = 16 };
 
-/* Prints each broken rule with its source in the file, or the library's message about something else. */
+/* Prints each broken rule with its source in the file. For other errors prints the library's message. */
 static void explain(pt_scene_file *file, const pt_context *context) {
     uint32_t i;
 
@@ -62,7 +62,7 @@ static pt_result render(pt_context *context, const pt_scene_file *file, float **
     return result < 0 ? result : pt_readback(context, &image);
 }
 
-/* Returns 1 if the file is whole. PFM begins with the bottom row; -1 says that the floats are little-endian. */
+/* Returns 1 if the file is complete. PFM has the bottom row first; -1 in its header means little-endian. */
 static int write_pfm(const char *path, const float *pixels, const pt_render *settings) {
     const size_t row_numbers = (size_t)settings->width * 3;
     FILE *file = fopen(path, "wb");

@@ -64,7 +64,7 @@ static pt_result render(pt_context *context, float *pixels, uint64_t size_bytes)
     return result;
 }
 
-/* Makes sRGB bytes, which PPM and PNG files store alike. */
+/* Makes sRGB bytes, as in PPM and PNG files. */
 static pt_result to_bytes(const float *pixels, uint8_t *bytes, uint64_t size_bytes) {
     pt_display_info display = {0};
 
@@ -99,7 +99,7 @@ int main(void) {
         return 1;
     }
     result = render(context, pixels, sizeof pixels);
-    if (result < 0) /* must come before pt_destroy, which frees the message */
+    if (result < 0) /* before pt_destroy, which frees the message */
         fprintf(stderr, "%s: %s\n", pt_result_name(result), pt_last_error(context));
     pt_destroy(context);
     if (result < 0)

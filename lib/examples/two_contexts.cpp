@@ -1,6 +1,6 @@
-// Two contexts in two threads: each renders the view of one eye. Both images go side by side into two_contexts.ppm.
-// Contexts are independent. Here they share one device, but each could use another one (pt_create_info.device). Exit
-// status 0 if the file was written.
+// Two contexts in two threads, each of which renders the view of one eye. Both images are written side by side to
+// two_contexts.ppm. Contexts are independent. Here they use the same device, but each could use another one
+// (pt_create_info.device). Exit status 0 if the file was written.
 #include <pt/pt.h>
 
 #include <algorithm>
@@ -36,7 +36,7 @@ Context create_context() {
     return Context(context);
 }
 
-// Returns R, G, B of each pixel, row by row, seen from an eye at this x. Only this thread uses the context.
+// Returns R, G, B of each pixel, row by row, as seen from an eye at this x.
 std::vector<float> render(double eye) {
     const pt_material materials[] = {
         {{0.8F, 0.8F, 0.8F}, {0, 0, 0}, {0, 0, 0}, 0, 0},

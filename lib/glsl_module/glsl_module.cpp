@@ -42,7 +42,7 @@ std::string read_source(const fs::path &path) {
     return text;
 }
 
-// Looks for a file beside the including file, then in the directory. Messages of glslang have the path that was found.
+// Searches a file beside the including file, then in the directory.
 class Includer : public glslang::TShader::Includer {
 public:
     Includer(fs::path directory, const fs::path &main_file) :
@@ -65,8 +65,8 @@ public:
         }
     }
 
-    // Called for #include <name>, and after includeLocal has found no file. The result's empty name stands for a
-    // missing file, and its text is the reason.
+    // Called for #include <name>, and if includeLocal has found no file. An empty name in the result means a missing
+    // file; its text is the reason.
     IncludeResult *includeSystem(const char * /*name*/, const char * /*file*/, std::size_t /*depth*/) override {
         const std::string reason = std::exchange(reason_, "");
         return hand_over("",
@@ -89,7 +89,7 @@ private:
     // glslang uses the text until it calls releaseInclude.
     static IncludeResult *hand_over(const std::string &name, std::unique_ptr<std::string> text) {
         auto *const result = new IncludeResult(name, text->data(), text->size(), text.get());
-        static_cast<void>(text.release()); // The result's user data now owns the text.
+        static_cast<void>(text.release()); // the result's user data owns the text
         return result;
     }
 
@@ -105,13 +105,13 @@ private:
     }
 
     fs::path directory_;
-    std::vector<fs::path> open_files_; // each was included by the previous one
+    std::vector<fs::path> open_files_; // each one includes the next
     std::string reason_;               // why the last #include was refused
-    bool is_endless_ = false;          // refuse every further #include
+    bool is_endless_ = false;          // every further #include is refused
 };
 
-// The rules of glslangValidator -V. All errors are reported, because glslang would misread the next directive after
-// stopping within an included file.
+// The rules of glslangValidator -V. All errors are reported, because glslang misreads the next directive if it stops
+// within an included file.
 constexpr auto rules = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules | EShMsgCascadingErrors);
 
 std::string trimmed(std::string log) {
@@ -119,14 +119,14 @@ std::string trimmed(std::string log) {
     return log;
 }
 
-// Keeps glslang's tables of built-in functions, which take most of the first compilation's time.
+// glslang's tables of built-in functions stay, because making them takes most of the first compilation's time.
 void start_glslang() {
     static const bool started = glslang::InitializeProcess();
     if (!started)
         throw std::runtime_error("glslang does not start");
 }
 
-// Uses the options of PtShaders.cmake, so that the words equal the embedded ones.
+// Uses the options of PtShaders.cmake, so that the words equal those embedded by the build.
 Words spirv_of(const fs::path &path, const fs::path &directory) {
     const std::string name = path.string();
     const std::string text = read_source(path);
@@ -157,7 +157,7 @@ Words spirv_of(const fs::path &path, const fs::path &directory) {
     return words;
 }
 
-// Drivers do not validate SPIR-V.
+// Needed, because drivers do not validate SPIR-V.
 void validate(const Words &words, const fs::path &path) {
     std::string log;
     spvtools::SpirvTools tools(SPV_ENV_VULKAN_1_2);
@@ -170,7 +170,7 @@ void validate(const Words &words, const fs::path &path) {
 }
 
 Words compile(const fs::path &directory, const char *name) {
-    static std::mutex one_at_a_time; // glslang's tables belong to the process
+    static std::mutex one_at_a_time; // glslang's tables are global
     const std::lock_guard lock(one_at_a_time);
     start_glslang();
     const fs::path path = directory / name;

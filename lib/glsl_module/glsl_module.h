@@ -1,5 +1,5 @@
-/* The interface of libpt-glsl.so, the only module that links glslang. The library loads it only to compile kernels at
- * run time. It has plain C types and no exceptions. */
+/* The interface of libpt-glsl.so, which links glslang. libpt loads it only to compile kernels at run time. It has only
+ * C types and no exceptions. */
 #ifndef PT_GLSL_MODULE_H
 #define PT_GLSL_MODULE_H
 
@@ -15,8 +15,8 @@ extern "C" {
 typedef void (*pt_glsl_receive_fn)(void *user, const void *bytes, size_t size);
 
 /* Compiles the compute shader directory/name to the SPIR-V that the build would embed. Included files are beside the
- * including file or in directory. Calls receive once, with the SPIR-V or the log, and then returns 0 or -1. Lines of
- * the log begin with file and line. Thread-safe. */
+ * including file or in directory. Calls receive once: with the SPIR-V before it returns 0, or with the log before it
+ * returns -1. Lines of the log begin with file and line. Thread-safe. */
 typedef int32_t (*pt_compile_glsl_fn)(const char *directory, const char *name, pt_glsl_receive_fn receive, void *user);
 
 #define PT_COMPILE_GLSL_SYMBOL "pt_glsl_compile"

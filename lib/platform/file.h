@@ -48,25 +48,25 @@ int create_file(const std::filesystem::path &path);  // for writing; EEXIST if t
 std::ptrdiff_t read_some(int descriptor, std::span<char> bytes);
 std::ptrdiff_t write_some(int descriptor, std::span<const std::byte> bytes);
 
-// Protects a new file from remove_abandoned() of other processes. Returns false if the file was removed before. Without
-// locks in the file system no file is removed.
+// Protects a new file from remove_abandoned() of other processes. Returns false if the file was already removed. On
+// file systems without locks no file is removed.
 bool lock_created(int descriptor);
 
 // Removes a file unless a process has locked it.
 void remove_abandoned(const std::filesystem::path &path);
 
-// Renames a new file once its bytes are on the disk. If it replaces a file, it takes that file's permissions.
+// Renames a new file after its bytes are on the disk. A replaced file passes its permissions on.
 bool rename_written(int descriptor, const std::filesystem::path &from, const std::filesystem::path &to);
 
-// Empty unless the file is regular.
+// Returns no value if the file is not regular.
 std::optional<std::uint64_t> regular_size(int descriptor);
 
-// A text that changes whenever the file is written or replaced. Empty without a file.
+// Returns a text that changes whenever the file is written or replaced, or no value if there is no file.
 std::optional<std::string> file_state(const std::filesystem::path &path);
 
 bool may_write(const std::filesystem::path &path);
 
-// Whether writing may follow this symbolic link, which others may have created.
+// Whether it is safe to write through this symbolic link, which other users may have created.
 bool may_follow(const std::filesystem::path &link);
 
 } // namespace platform

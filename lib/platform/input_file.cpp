@@ -14,7 +14,7 @@ constexpr std::size_t block = std::size_t{1} << 16;
     throw InputError(std::generic_category().message(error));
 }
 
-// A path with a NUL byte is refused, because the system would cut the name there.
+// Refuses a path with a NUL byte, where the system would end the name.
 int opened(const std::filesystem::path &path) {
     if (path.native().find(std::filesystem::path::value_type{}) != std::filesystem::path::string_type::npos)
         throw InputError("a file's name has no NUL byte");

@@ -12,7 +12,7 @@
 
 namespace platform {
 
-// The message is the reason, without the file's name.
+// what() does not include the file's name.
 struct InputError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -20,13 +20,13 @@ struct InputError : std::runtime_error {
 // Any function can throw InputError.
 class InputFile {
 public:
-    // Opens regular files only. A named pipe could wait for its writer, and a device could have no end.
+    // Opens only regular files, because a named pipe may wait for its writer, and a device may be endless.
     explicit InputFile(const std::filesystem::path &path);
 
     // Reads standard input, of any kind.
     InputFile() = default;
 
-    // In bytes; 0 for standard input.
+    // 0 for standard input.
     std::uint64_t size() const { return size_; }
 
     // Returns the first `count` bytes, or all of a shorter file. Valid until the next call.
@@ -34,13 +34,13 @@ public:
 
     std::string all();
 
-    // Ends after a block with a NUL byte, because the file is then no text.
+    // Stops after a block with a NUL byte, because the file is then no text.
     std::string text();
 
 private:
     bool take_block(); // false at the end
 
-    FileDescriptor file_{-1}; // not open: reads standard input
+    FileDescriptor file_{-1}; // standard input if it is not open
     std::uint64_t size_ = 0;
     std::string bytes_; // read so far
 };

@@ -6,8 +6,7 @@
 
 namespace platform {
 
-// Loads a path, or a name that is looked for in the system's folders, not in the working directory. NULL on failure;
-// module_error() has the reason.
+// Loads a path, or a name from the system's folders. Returns NULL on failure; module_error() has the reason.
 void *load_module(const std::filesystem::path &path);
 void *find_function(void *module, const char *name);
 std::string module_error();

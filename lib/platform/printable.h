@@ -1,4 +1,4 @@
-// Makes foreign text harmless for terminals: names of files and keys, messages of compilers and drivers.
+// Makes text from outside harmless for terminals: names of files, messages of compilers and drivers.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ struct Character {
     std::size_t size;
 };
 
-// Decodes the first character of UTF-8. A byte that begins no valid sequence counts as a Latin-1 character.
+// Decodes the first character of UTF-8. A byte that does not begin a valid sequence is taken as Latin-1.
 inline Character first_character(std::string_view text) {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
     const std::size_t size = byte(0) < 0xc0 || byte(0) > 0xf7 ? 1 : byte(0) < 0xe0 ? 2 : byte(0) < 0xf0 ? 3 : 4;
@@ -27,7 +27,8 @@ inline Character first_character(std::string_view text) {
     return {code, size};
 }
 
-// Whether a character moves the cursor, changes the terminal, begins a line, or reorders others (UAX #9, table 1).
+// Whether a character moves the cursor, changes the terminal, begins a line, or reorders other characters (UAX #9,
+// table 1).
 constexpr bool is_control(char32_t code) {
     return code < 0x20 || (code >= 0x7f && code < 0xa0) || code == 0x61c || code == 0x200e || code == 0x200f ||
            (code >= 0x2028 && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069);

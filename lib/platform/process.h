@@ -12,20 +12,21 @@ std::filesystem::path program_file();
 
 std::uint64_t peak_bytes();
 
-// RAM and swap, within this process's limits.
+// Returns the size of RAM and swap, or the process's limit if that is less.
 std::uint64_t most_bytes();
 
-// Drivers see the variable, too. Not thread-safe, because the environment has no lock.
+// Not thread-safe.
 void set_environment(const char *name, const char *value);
 
-// The folder may not exist. Empty if unknown.
+// The folder may not exist. The path is empty if unknown.
 std::filesystem::path cache_folder();
 
-// Looks in the absolute folders of PATH, so that no file of the current folder is run. Empty if not found.
+// Searches only absolute folders of PATH, so that no file of the current folder is run. Returns an empty path if no
+// folder has the program.
 std::filesystem::path find_program(const std::string &name);
 
-// Replaces this process by another program, with the arguments after the first two. Returns -1 and errno if the program
-// cannot be run, or its exit code where a process cannot be replaced.
+// Replaces this process by another program, which gets the arguments after the first two. Returns -1 and sets errno if
+// the program cannot be run. On Windows, waits for the program and returns its exit code.
 int run_instead(const std::filesystem::path &program, char *const *arguments);
 
 } // namespace platform

@@ -74,7 +74,7 @@ inline bool may_hold_origin(const MovingBall &ball, double slack = 0.0) {
     return !(least_distance(ball.open, ball.way) > with_margin(ball.radius) + slack);
 }
 
-// Whether both surfaces nearly coincide. For a capsule, one of its end balls suffices.
+// Whether both surfaces, or an end ball of a capsule and the other surface, nearly coincide.
 inline bool nearly_coincide(const MovingBall &ball, const MovingBall &other) {
     const double apart = other.kind == Kind::capsule
                              ? std::max(least_distance(other.open - ball.open, other.way) - glm::length(ball.way), 0.0)

@@ -60,7 +60,7 @@ struct Plane {
 };
 
 struct Scene {
-    std::vector<Material> materials; // the caller's, then those of colored spheres
+    std::vector<Material> materials; // the caller's, then materials of colored spheres
     std::vector<Sphere> spheres;     // pt_scene.spheres, then the arrays
     std::vector<Plane> planes;
     std::vector<std::uint32_t> array_starts = {};

@@ -31,8 +31,8 @@ void parse_json_items(std::string_view text, const std::string &file_name, JsonI
 // Removes a byte order mark. Throws PT_ERROR_INVALID_SCENE at a NUL byte.
 std::string_view require_text(std::string_view contents, const std::string &file_name);
 
-// Returns the line, from 1, of the value at the path or, if there is none, of the innermost value around it. Of
-// repeated keys the last one counts. Text after a syntax error is ignored.
+// Returns the line, from 1, of the value at the path, or of the innermost existing value around it. Of repeated keys
+// the last one counts. Text after a syntax error is ignored.
 std::optional<std::size_t> line_of(std::string_view text, const JsonPath &path);
 
 } // namespace pt

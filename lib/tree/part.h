@@ -56,8 +56,8 @@ inline constexpr std::size_t sample_size = 4096;
 
 inline constexpr std::size_t sampled_from = 4 * sample_size;
 
-// Calls use(item) for all items of a small group. For a large group, calls use(item) for one pseudorandom item of each
-// of sample_size runs, because items may be in a regular order.
+// Calls use(item) for all items of a small group, or for one item of each of sample_size runs of a large group. The
+// choice is pseudorandom, because items may be in a regular order.
 template <typename Use>
 void for_each_or_sample(Items items, Use use) {
     if (items.size() < sampled_from) {
@@ -90,7 +90,7 @@ inline Box balls_of(Items items) {
     return box;
 }
 
-// A group of spheres to be split. In large parts, the boxes are those of a sample.
+// A group of spheres to be split. Large parts have the boxes of a sample.
 struct Part {
     Items items;
     Box centres; // a single point only if all centers are equal

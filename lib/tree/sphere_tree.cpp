@@ -363,8 +363,8 @@ bool SphereTree::finds_close_lamps(WorkProgress &progress) const {
     return false;
 }
 
-// A camera within twice the grid's reach is rounded to a grid point, so that differences are exact. For a farther
-// camera, the grid's middle is used, because rounding is small against the distance.
+// A camera within twice the grid's reach is rounded to a grid point, so that differences are exact. A farther camera is
+// replaced by the grid's middle, because rounding is small against the distance.
 gpu::TreeFrame SphereTree::frame(const Camera &camera) const {
     gpu::TreeFrame frame{};
     frame.camera = is_far(camera) ? glm::ivec3(0) : grid_.place(camera.position);

@@ -27,7 +27,8 @@ namespace pt {
 
 class SphereTree {
 public:
-    // Contains all spheres except left_out (ascending indices), at least one. `materials` are those of the whole scene.
+    // Contains all spheres except left_out (ascending indices), at least one. `materials` are the materials of the
+    // whole scene.
     SphereTree(const SphereSource &spheres, std::span<const std::uint32_t> left_out,
                std::span<const TreeMaterial> materials, WorkProgress &progress);
 

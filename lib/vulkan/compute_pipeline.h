@@ -50,7 +50,7 @@ public:
 
     DescriptorSet bind(std::span<const BufferRange> ranges) const;
 
-    // Records group_count x rows workgroups. `offsets` are those of the dynamic bindings, in bytes.
+    // Records group_count x rows workgroups. `offsets` are the offsets of the dynamic bindings in bytes.
     void dispatch(const vk::raii::CommandBuffer &commands, const DescriptorSet &set,
                   std::span<const std::byte> push_constants, std::uint32_t group_count,
                   std::span<const std::uint32_t> offsets = {}, std::uint32_t rows = 1) const;

@@ -6,7 +6,6 @@ namespace platform {
 
 const char *const denoiser_file = "libOpenImageDenoise.so.2";
 
-// On Linux programs are linked with the Vulkan loader.
 PFN_vkGetInstanceProcAddr vulkan_functions() {
     return &::vkGetInstanceProcAddr;
 }

@@ -5,7 +5,8 @@ namespace platform {
 
 const char *const denoiser_file = "libOpenImageDenoise.2.dylib";
 
-// Loads the loader on demand, so that a message can say what to install. MoltenVK is a driver that needs no loader.
+// Loads the Vulkan loader on demand, so that a message can say what to install. MoltenVK is a driver that needs no
+// loader.
 PFN_vkGetInstanceProcAddr vulkan_functions() {
     static void *const loader = [] {
         void *const vulkan = load_module("libvulkan.1.dylib");

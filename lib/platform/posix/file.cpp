@@ -28,7 +28,7 @@ int open_to_read(const fs::path &path) {
 }
 
 int create_file(const fs::path &path) {
-    constexpr mode_t permissions = 0666; // the system removes those in the umask
+    constexpr mode_t permissions = 0666; // reduced by the umask
     return open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, permissions);
 }
 
@@ -85,8 +85,8 @@ bool may_write(const fs::path &path) {
     return access(path.c_str(), W_OK) == 0;
 }
 
-// The rule of the Linux kernel (protected_symlinks, proc_sys_fs(5)): in a folder like /tmp, only links of the user and
-// of the folder's owner are safe.
+// The rule of the Linux kernel (protected_symlinks, proc_sys_fs(5)): in a folder like /tmp, only links that belong to
+// the user or to the folder's owner are safe.
 bool may_follow(const fs::path &link) {
     constexpr mode_t open_to_all = S_ISVTX | S_IWOTH;
     struct stat of_link {};

@@ -22,7 +22,7 @@ void keep_loaded(const char *name) {
         dlclose(loaded); // releases only the reference of this dlopen
 }
 
-// dladdr may give a relative path, which is used only if it still names the loaded file.
+// dladdr may give a relative path. It is used only if it still names the loaded file.
 std::filesystem::path folder_with(const void *function) {
     Dl_info info{};
     if (dladdr(function, &info) == 0 || !info.dli_fname)

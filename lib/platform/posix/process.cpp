@@ -19,7 +19,7 @@ void set_environment(const char *name, const char *value) {
     setenv(name, value, 1);
 }
 
-// The XDG Base Directory Specification says to ignore relative paths.
+// Ignores relative paths, as the XDG Base Directory Specification requires.
 fs::path cache_folder() {
     const auto folder = [](const char *name) {
         const char *variable = std::getenv(name);

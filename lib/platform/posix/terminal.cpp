@@ -20,7 +20,7 @@ extern "C" void note_end(int signal) {
     if (!end_of_process(signal))
         return;
     std::signal(signal, SIG_DFL);
-    raise(signal); // The signal arrives when this handler returns.
+    raise(signal); // arrives when this handler returns
 }
 
 extern "C" void note_picture_request(int) {
@@ -40,8 +40,8 @@ void handle(int signal, void (*handler)(int)) {
 void prepare_streams() {
     for (const int stream : {standard_input, standard_output, standard_error}) {
         if (fcntl(stream, F_GETFD) == -1 && errno == EBADF) {
-            // open() takes the lowest free number, which is the stream's. The wrong mode makes reads and writes of the
-            // stream fail with EBADF as before.
+            // open() returns the lowest free number, which is the number of the closed stream. The wrong mode makes
+            // reads and writes of the stream still fail with EBADF.
             static_cast<void>(open("/dev/null", stream == standard_input ? O_WRONLY : O_RDONLY));
         }
     }
@@ -63,7 +63,7 @@ void catch_signals(bool (*end)(int), void (*picture)()) {
     for (const int signal : {interruption, termination, hangup}) {
         struct sigaction old {};
         sigaction(signal, nullptr, &old);
-        if (old.sa_handler != SIG_IGN) // The parent ignores it for a background job or nohup.
+        if (old.sa_handler != SIG_IGN) // ignored for background jobs and by nohup
             handle(signal, &note_end);
     }
     handle(SIGUSR1, &note_picture_request);

@@ -15,7 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The runtime library limits the bytes of one read or write.
 template <typename Byte>
 unsigned size_of_part(std::span<Byte> bytes) {
     constexpr std::size_t most = std::size_t{1} << 30;
@@ -43,7 +42,7 @@ void close_file(int descriptor) {
     _close(descriptor);
 }
 
-// Other processes may rename and remove the open file.
+// Lets other processes rename and remove the open file.
 int open_to_read(const fs::path &path) {
     constexpr DWORD sharing = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
     return opened(
@@ -74,7 +73,7 @@ void remove_abandoned(const fs::path &path) {
     DeleteFileW(path.c_str());
 }
 
-// Renames the open file, so that nobody can remove it before.
+// Renames the file while it is open, so that no other process can remove it before.
 bool rename_written(int descriptor, const fs::path &from, const fs::path &to) {
     static_cast<void>(from);
     const std::wstring name = fs::absolute(to).make_preferred().wstring();

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Skips a word. This project's command lines have quotes only around whole words.
+// Skips a word. Supports quotes only around whole words.
 const wchar_t *after_word(const wchar_t *line) {
     const wchar_t end = *line == L'"' ? L'"' : L' ';
     line += *line == L'"' ? 1 : 0;
@@ -74,7 +74,7 @@ fs::path find_program(const std::string &name) {
     return {};
 }
 
-// A process cannot be replaced on Windows, so this one waits for the program, which gets the rest of the command line.
+// A process cannot be replaced on Windows, so this one waits for the program.
 int run_instead(const fs::path &program, char *const *) {
     std::wstring line = L'"' + program.wstring() + L"\" " + after_word(after_word(GetCommandLineW()));
     STARTUPINFOW start{};

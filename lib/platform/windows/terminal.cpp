@@ -11,12 +11,12 @@ namespace {
 
 bool (*end_of_process)(int) = nullptr;
 
-// Runs on a separate thread. If it returns FALSE, the process ends.
+// Runs on a thread of its own. The process ends after FALSE is returned.
 BOOL WINAPI note_end(DWORD event) {
     const bool is_key = event == CTRL_C_EVENT || event == CTRL_BREAK_EVENT;
     if (end_of_process(is_key ? interruption : hangup))
         return FALSE;
-    if (!is_key) // The process ends when this returns, or after some seconds.
+    if (!is_key) // the process ends when this function returns, or after some seconds
         Sleep(INFINITE);
     return TRUE;
 }
