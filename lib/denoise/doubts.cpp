@@ -38,7 +38,6 @@ std::vector<Change> changes_by_pixel(const Halves &halves) {
     return changes;
 }
 
-// Overlapping blocks along one axis.
 struct Blocks {
     explicit Blocks(std::size_t pixels) : pixel_count(pixels), count((pixels + block_step - 1) / block_step) {}
 

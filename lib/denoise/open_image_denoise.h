@@ -1,4 +1,4 @@
-// Open Image Denoise is loaded on demand. This library does not link it and works without it.
+// Open Image Denoise, loaded on demand.
 #pragma once
 
 #include <pt/denoise.h>

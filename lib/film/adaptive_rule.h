@@ -53,7 +53,6 @@ struct FilmLooks {
     std::function<std::vector<std::uint64_t>()> samples_for_lamps;
 };
 
-// The most samples of a pixel.
 struct MostSamples {
     std::uint64_t most;
     std::uint64_t limit; // limit over all calls

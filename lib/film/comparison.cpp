@@ -131,7 +131,6 @@ std::vector<Level> levels_of(const pt_compare_info &info) {
     return levels;
 }
 
-// Returns the larger number of samples divided by the smaller one.
 double sample_ratio(const pt_compare_info &info) {
     const double first = info.first.min_samples;
     const double second = info.second.min_samples;
@@ -170,7 +169,6 @@ ChannelEvents largest_events(const pt_compare_info &info) {
     return events;
 }
 
-// A difference. The absence of rare events may explain a part of it.
 struct Difference {
     double z;        // difference in standard deviations
     double event;    // largest event in standard deviations

@@ -73,7 +73,6 @@ struct LampSquare {
 
 inline constexpr std::uint32_t lamp_square = 8;
 
-// Whether the film counts samples that hit a surface.
 bool has_coverage(const FilmIdentity &identity);
 
 // Sorts by rows, and keeps the largest `samples` of equal squares.

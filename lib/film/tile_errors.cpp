@@ -120,7 +120,6 @@ TileErrors errors_of(const Rectangle &pixels, const SampleSet &samples, double u
 
 } // namespace
 
-// Reads only those rows of tiles in which a tile has changed.
 std::span<const TileErrors> FilmErrors::of(const TileSamples &samples, double unit, const ReadRows &read) {
     const TileGrid &grid = samples.grid();
     const bool is_known = !tiles_.empty() && samples_.grid() == grid;

@@ -15,7 +15,6 @@ namespace pt {
 // other lamps the result is 1.
 double smallest_lamp_share(std::span<const Sphere> lamps, std::span<const Material> materials, const Camera &camera);
 
-// Whether the samples may have missed a lamp or lobe that they find only by chance.
 bool may_miss_lamps(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings,
                     std::uint64_t samples);
 

@@ -27,7 +27,6 @@ RenderDevice::RenderDevice(vulkan::Instance &instance, const vk::raii::PhysicalD
     under_way_.reserve(device_.policy().queue_depth);
 }
 
-// If the device hangs, its objects are leaked (DeviceObject).
 RenderDevice::~RenderDevice() {
     if (!device_.comes_to_rest())
         device_.abandon();
@@ -103,7 +102,6 @@ void RenderDevice::save_kernels() noexcept {
         device_.pipeline_cache().save(device_.log());
 }
 
-// A kernel that is kept also keeps its schedule, because samples take about the same time.
 void RenderDevice::prepare(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings) {
     pipelines_->build_own(TracePipelines::OwnKernels::when_they_pay);
     if (kernel_ && &kernel_->scene() == scene.get())

@@ -80,7 +80,6 @@ public:
     // If one driver refuses the code, no device uses it.
     void set_code(const KernelCode &code);
 
-    // Builds the kernels that accumulate() needs.
     void prepare();
 
     // Returns PT_OK, PT_CANCELLED or PT_TARGET_REACHED.

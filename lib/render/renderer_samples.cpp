@@ -29,7 +29,6 @@ std::uint64_t amount_of(const pt_accumulate_info &wanted, const TileGrid &grid) 
 
 } // namespace
 
-// Sets of samples get their missing samples from first_sample on.
 void Renderer::require_room_for(std::uint32_t sample_count) const {
     const std::uint64_t first = settings_->first_sample;
     for (const SampleSet &samples : samples_.sets()) {

@@ -42,7 +42,6 @@ struct ExpectedSquares {
     double hits() const { return sum * sum / variance; }
 };
 
-// Sums over an image's values.
 struct UnmetSquares {
     ExpectedSquares square;
     ExpectedSquares relative_square;

@@ -21,7 +21,7 @@ public:
     TileTasks(const TileSamples &present, std::uint32_t first_sample, std::span<const std::uint32_t> tiles,
               const Goal &goal);
 
-    // For equal samples in all tiles. Takes a time that does not depend on the number of tiles.
+    // All tiles must have equal samples.
     TileTasks(const SampleSet &present, std::uint32_t first_sample, std::span<const std::uint32_t> all_tiles,
               std::uint64_t goal);
 

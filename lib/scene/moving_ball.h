@@ -44,7 +44,6 @@ inline PointBox box_about(const MovingBall &ball) {
     return {glm::min(ball.open, ball.close()) - ball.radius, glm::max(ball.open, ball.close()) + ball.radius};
 }
 
-// The ball while the shutter is open, relative to the camera.
 inline MovingBall seen_ball(const MovingBall &ball, const Camera &camera) {
     if (ball.kind != Kind::ball)
         return {ball.open - camera.position, ball.way, ball.radius, ball.kind};

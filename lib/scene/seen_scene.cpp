@@ -22,7 +22,6 @@ bool is_large(const SeenSphere &sphere, double ratio) {
     return sphere.kind == Kind::ball && sphere.radius > ratio * std::abs(sphere.height());
 }
 
-// The motion is compared like a distance from the camera.
 bool moves_little(const SeenSphere &sphere) {
     return sphere.radius > nearly_flat * glm::length(sphere.way);
 }

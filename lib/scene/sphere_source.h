@@ -87,7 +87,6 @@ private:
     void read(std::span<const std::uint32_t> indices, std::span<Sphere> spheres) const;
     void read_colors(std::span<const std::uint32_t> indices, std::span<glm::vec3> colors) const;
 
-    // Calls read_part(columns, at, elements) for each run of spheres in one array.
     template <typename Element, typename Read>
     void read_parts(std::span<const std::uint32_t> indices, std::span<Element> elements, Read read_part) const;
 

@@ -1,4 +1,3 @@
-// The functions of pt/scene_file.h.
 #include "lib/api/guard.h"
 #include "lib/base/struct_size.h"
 #include "lib/platform/printable.h"

@@ -21,7 +21,6 @@
 
 namespace pt {
 
-// The view from (0, 0, 1) to the origin.
 constexpr pt_camera default_camera() {
     auto camera = sized<pt_camera>();
     camera.position[2] = 1.0;
@@ -43,7 +42,6 @@ constexpr pt_display_info default_display() {
     return display;
 }
 
-// A sphere's own color and opacity.
 struct Look {
     std::array<float, 3> color{1.0F, 1.0F, 1.0F};
     float opacity = 1.0F;

@@ -49,7 +49,6 @@ struct SceneSection {
 
     bool may_be_many() const;
 
-    // Whether values may be animated.
     bool may_move() const { return form != SectionForm::members || name == "camera"; }
 };
 

@@ -16,7 +16,6 @@ struct TreeMaterial {
     bool emits;
 };
 
-// Calls use(index, sphere) for all spheres except left_out, in ascending order.
 template <typename Use>
 void for_each_in_tree(const SphereSource &spheres, std::span<const std::uint32_t> left_out, WorkProgress &progress,
                       Use use) {

@@ -346,7 +346,7 @@ void SphereTree::visit(const Camera &camera, const std::function<bool(const Movi
 }
 
 bool SphereTree::finds_close_lamps(WorkProgress &progress) const {
-    constexpr std::size_t as_many_spheres = 16; // a lamp takes as long as this many spheres
+    constexpr std::size_t as_many_spheres = 16;
     progress.enter(share_of_close_lamps, static_cast<double>(lamp_materials_.size()));
     for (std::uint32_t lamp = 0; lamp < lamp_materials_.size(); ++lamp) {
         progress.add(1.0, as_many_spheres);

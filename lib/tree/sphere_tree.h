@@ -1,7 +1,6 @@
 // The tree of spheres in the kernel's layout. All devices share it.
 //
-// The shape affects only speed. Spheres that have moved a little can reuse an older shape, which is faster than
-// building a new one.
+// The shape affects only speed.
 #pragma once
 
 #include "lib/base/digest.h"

@@ -22,7 +22,6 @@ constexpr double much_farther = 16.0;
 // Walks are faster in a tree without capsules. So a few capsules, such as the twelve edges of a cell, stay outside.
 constexpr std::size_t few_others = 16;
 
-// Finds the few spheres that reach much_farther times as far from the scene's middle as all others.
 std::vector<std::uint32_t> outlying_spheres(const SphereSource &spheres, WorkProgress &progress) {
     const std::size_t few = std::min(most_outlying, spheres.size() / 2);
     const glm::dvec3 middle =
