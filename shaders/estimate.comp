@@ -48,7 +48,7 @@ struct Errors {
 };
 
 // Each invocation has one column of a tile, so that invocations read adjacent words.
-shared float means[TILE_SIZE][ESTIMATE_WORKGROUP_SIZE]; // of one channel
+shared float means[TILE_SIZE][ESTIMATE_WORKGROUP_SIZE]; // means of one channel
 shared ValueSet column_sets[ESTIMATE_WORKGROUP_SIZE];
 shared Errors errors[ESTIMATE_WORKGROUP_SIZE];
 

@@ -237,8 +237,8 @@ struct ErrorSquares {
 struct TileErrors {
     ErrorSquares square;          // (x - r)^2 in film units; x is the mean of a pixel, r its limit
     ErrorSquares relative_square; // (x - r)^2 / (r^2 + offset^2) * relative_scale^2, except pixels of the next two
-    ErrorSquares met_once;        // for light that samples of only one part hit, with r from the other part
-    ErrorSquares as_lamps;        // for the same light with r = x
+    ErrorSquares met_once;        // quotients of light that samples of only one part hit, with r from the other part
+    ErrorSquares as_lamps;        // quotients of the same light with r = x
     float unseen;                 // expected square of the error from light that no sample hit
     uint met_again;               // number of values that both parts hit (pixel_error.h)
     uint unknown_pixels;          // pixels without samples in a part

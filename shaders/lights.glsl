@@ -12,8 +12,8 @@ struct LampView {
     float squared_distance;
     float inverse_distance;
     float squared_radius;
-    float squared_sine; // of the lamp's angular radius; 1 inside the lamp
-    float weight;       // for the choice of a lamp; 0: cannot be sampled
+    float squared_sine; // squared sine of the lamp's angular radius; 1 inside the lamp
+    float weight;       // weight in the choice of a lamp; 0: cannot be sampled
 };
 
 // The weight of shaders/README.md, section 6. A lamp that contains or touches the vertex gets weight 0.
@@ -169,7 +169,7 @@ float cone_density(LampView view)
 
 struct LampSample {
     ShadowRay shadow;
-    float density; // over solid angle, for this lamp; 0: cannot be sampled
+    float density; // density over solid angle for this lamp; 0: cannot be sampled
 };
 
 // Takes a direction uniform in the lamp's cone, with h = 1 - cos of the angle to its axis. The distance is computed

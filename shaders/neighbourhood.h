@@ -49,7 +49,7 @@ PT_FUNCTION Sorted with_missing_above(Sorted row)
 }
 
 struct Neighbourhood {
-    float median; // of an even number of values the lower middle one; 0 for a lone pixel
+    float median; // lower middle value of an even number; 0 for a lone pixel
     float largest;
 };
 

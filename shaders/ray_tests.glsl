@@ -43,8 +43,8 @@ float plane_distance(Level level, vec3 direction, bool leaving, bool inside, flo
 }
 
 struct Hit {
-    float distance; // or NO_HIT; negative if rounding has put the start beyond the surface
-    uint surface;   // or NO_SURFACE
+    float distance; // distance, or NO_HIT; negative if rounding has put the start beyond the surface
+    uint surface;   // surface, or NO_SURFACE
 };
 
 void keep_closer(inout Hit hit, float distance, uint surface)

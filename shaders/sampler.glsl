@@ -12,7 +12,7 @@ layout(set = 0, binding = BINDING_POINTS) uniform Points { uvec4 blocks[POINT_BL
 
 struct SampleKey {
     uvec2 seed;
-    uint pixel; // in the image, row by row
+    uint pixel; // index in the image, row by row
     uint sample_index;
     uint row;    // index of block 0 in `points`
     uvec4 shift; // hash of the pixel

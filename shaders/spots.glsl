@@ -28,7 +28,7 @@ bool is_glow(SpotWord word) { return GLOSS == 0u || word.glossiness < 0.0; }
 
 struct Spot {
     vec4 place;   // image: unit vector, exponent of its lobe; glow: the lamp's center, squared height over the plane
-    float weight; // for the choice of a spot; 0: the spot cannot be seen
+    float weight; // weight in the choice of a spot; 0: the spot is not visible
 };
 
 struct Spots {

@@ -11,7 +11,7 @@ struct TreeSample {
     CameraRay camera;
     bool has_met;  // the walk of the camera ray is done
     Arrival first; // hit of the camera ray
-    vec3 radiance; // of finished paths
+    vec3 radiance; // sum over finished paths
     uint branch;
     Path path;
 };

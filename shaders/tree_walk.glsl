@@ -81,8 +81,8 @@ struct Walk {
     ShadowRay shadow;
     float time;
     uint opacity_number;
-    Hit hit;      // at first the closest surface outside the tree
-    bool blocked; // whether the shadow ray is blocked, at first by surfaces outside the tree
+    Hit hit;      // initially the closest surface outside the tree
+    bool blocked; // whether the shadow ray is blocked; initially only by surfaces outside the tree
     uvec4 hit_word;
     GridRay path_ray;
     GridRay shadow_ray;

@@ -139,7 +139,8 @@ AdaptiveRound round_after(const AdaptiveRound &round, const TileSamples &samples
         return next;
     }
     const std::int32_t content = std::max(round.number, by_round.begin()->first);
-    // The rest of the error is light that no sample has hit. Only the floor reduces this error.
+    // The rest of the error is light that no sample has hit. Only a larger minimum number of samples (floor) reduces
+    // this error.
     if (sees_too_little && excess <= 1.0) {
         next.number = content;
         return next;

@@ -10,7 +10,7 @@ namespace pt {
 
 struct Comparison {
     pt_comparison verdict{};
-    std::vector<pt_compared_region> regions; // in pt_compare's order
+    std::vector<pt_compared_region> regions; // same order as for pt_compare
 };
 
 // `info` must be valid, with its defaults filled in.

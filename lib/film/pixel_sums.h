@@ -82,7 +82,7 @@ public:
     // Numbers of accepted and rejected samples in each part.
     PartCounts samples_of(std::size_t pixel) const;
 
-    // Whether this many samples can have these sums.
+    // Whether the sums are possible for these numbers of samples.
     bool holds(const PartCounts &expected) const;
 
     // Returns R, G and B of each pixel. `quantity` is a PT_QUANTITY_* that comes from samples. PT_QUANTITY_COVERAGE

@@ -37,10 +37,10 @@ struct PixelErrors {
 
     Numbers square{};          // (x - r)^2
     Numbers relative_square{}; // (x - r)^2 / (r^2 + 0.01), except for light that samples of only one part hit
-    Numbers met_once{};        // the same for light that samples of only one part hit, with r from the other part
-    Numbers as_lamps{};        // for the same light with r = x
-    Numbers met_again{};       // number of values where samples of both parts hit bright light
-    Numbers unseen{};          // expected relative squares from neighbors' light that no sample of the pixel hit
+    Numbers met_once{};  // relative squares of light that samples of only one part hit, with r from the other part
+    Numbers as_lamps{};  // relative squares of the same light with r = x
+    Numbers met_again{}; // number of values where samples of both parts hit bright light
+    Numbers unseen{};    // expected relative squares from neighbors' light that no sample of the pixel hit
 };
 
 PixelErrors pixel_errors(const TileValues &tile);

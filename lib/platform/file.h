@@ -44,7 +44,7 @@ private:
 
 // These four return -1 on failure.
 int open_to_read(const std::filesystem::path &path); // does not wait for the writer of a named pipe
-int create_file(const std::filesystem::path &path);  // for writing; EEXIST if the file exists
+int create_file(const std::filesystem::path &path);  // opens for writing; EEXIST if the file exists
 std::ptrdiff_t read_some(int descriptor, std::span<char> bytes);
 std::ptrdiff_t write_some(int descriptor, std::span<const std::byte> bytes);
 

@@ -72,7 +72,7 @@ private:
 
     const RenderDevices &devices_;
     FilmErrors errors_;
-    std::list<Sum> sums_; // at most two, of different sizes
+    std::list<Sum> sums_; // at most two sums of different sizes
 };
 
 } // namespace pt

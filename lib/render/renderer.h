@@ -55,8 +55,8 @@ struct CreateSettings {
 
 std::vector<pt_device_info> list_devices();
 
-// The methods of pt_context, with its rules for failures. While samples are running, only poll(), cancel() and const
-// methods may be called.
+// Implements the functions of pt_context, with the same rules for failures. While samples are running, only poll(),
+// cancel() and const methods may be called.
 class Renderer {
 public:
     explicit Renderer(const CreateSettings &settings);
@@ -128,7 +128,7 @@ private:
         MostSamples counts;
         std::uint64_t together_to;        // up to this count all tiles have equal samples
         bool is_together;                 // true below together_to
-        std::vector<std::uint64_t> goals; // by tile, if no error is checked
+        std::vector<std::uint64_t> goals; // goals of tiles, if no error is checked
         Accumulation accumulation;
     };
 

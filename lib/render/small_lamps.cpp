@@ -19,7 +19,7 @@ constexpr double largest_share = 0.5;
 struct Disc {
     double x;
     double y;
-    double radius; // with blur
+    double radius; // radius with blur
     double size;   // area without blur
 
     double area() const { return std::numbers::pi * radius * radius; }
@@ -208,7 +208,7 @@ struct UnmetPiece {
     double hits;
     double square;
     double relative_square;
-    double lack; // squares if no sample hits
+    double lack; // expected squares of pixels if no sample hits
     double relative_lack;
 };
 

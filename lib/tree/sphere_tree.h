@@ -86,7 +86,7 @@ public:
     struct Farthest {
         std::uint32_t sphere; // scene index
         MovingBall surface;
-        double distance; // from the middle to its center
+        double distance; // distance of its center from the middle
     };
     Farthest farthest() const;
 

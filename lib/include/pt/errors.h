@@ -18,8 +18,8 @@ typedef struct pt_broken_rule {
     uint32_t struct_size; /**< sizeof(pt_broken_rule) */
     int32_t component;    /**< element of member, if member is an array or a pt_column; otherwise -1 */
     int64_t index;        /**< element of subject, if subject is an array of structs; otherwise -1 */
-    /** An array of pt_scene: "materials", "spheres", "planes" or "sphere_arrays". Or a struct: "scene", "camera",
-     * "render", "accumulate", "image", "stats", "create", "vulkan" or "denoise". Or another argument's name. */
+    /** The name of an array of pt_scene ("materials", "spheres", "planes" or "sphere_arrays"), of a struct ("scene",
+     * "camera", "render", "accumulate", "image", "stats", "create", "vulkan" or "denoise") or of another argument. */
     const char *subject;
     const char *member; /**< the subject's member, or "center.type"; "" for a rule about the argument itself */
     const char *with;   /**< other terms of the value, for example "* height"; otherwise "" */

@@ -111,7 +111,7 @@ PT_API pt_result pt_read_film(const pt_film *film, const pt_image *image);
 /** Describes a film. */
 PT_API pt_result pt_get_film_info(const pt_film *film, pt_film_info *info);
 
-/** Writes the tile with an index below pt_film_info.tile_count.
+/** Writes a tile. index must be below pt_film_info.tile_count.
  *
  * Tiles do not overlap. */
 PT_API pt_result pt_get_film_tile(const pt_film *film, uint32_t index, pt_film_tile *tile);

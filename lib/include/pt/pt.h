@@ -374,7 +374,7 @@ typedef struct pt_image {
     uint32_t x;           /**< first column that is read */
     uint32_t y;           /**< first row, counted from pt_render.first_row */
     uint32_t width;       /**< columns, >= 1 and within the image; x, y, width and height all 0: the whole image */
-    uint32_t height;      /**< rows, like width */
+    uint32_t height;      /**< rows; see width */
     uint32_t format;      /**< PT_FORMAT_* */
     uint32_t reserved;    /**< 0 */
 } pt_image;
@@ -404,8 +404,8 @@ typedef void (*pt_store_kernels_fn)(void *user, const char *key, const void *dat
 /** Bits of pt_create_info.flags. */
 enum {
     PT_CREATE_VALIDATION = 1, /**< the Khronos validation layer reports to log; absent: PT_ERROR_UNSUPPORTED */
-    /** no kernels that have a scene's numbers as constants. These kernels are up to 1.5 times as fast on CPUs, but
-     * every scene and camera needs new ones. By default, scenes that are rendered for some time get them. */
+    /** build no kernels that have a scene's numbers as constants. These kernels are up to 1.5 times as fast on CPUs,
+     * but every scene and camera needs new ones. By default, scenes that are rendered for some time get them. */
     PT_CREATE_NO_SCENE_KERNELS = 2
 };
 

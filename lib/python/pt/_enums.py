@@ -98,7 +98,7 @@ class CreateFlag(enum.IntFlag):
     """Options of a context; see Context."""
 
     VALIDATION = 1  # the Khronos validation layer reports to log
-    NO_SCENE_KERNELS = 2  # no kernels that have a scene's numbers as constants
+    NO_SCENE_KERNELS = 2  # build no kernels that have a scene's numbers as constants
 
 
 class DeviceKind(enum.IntEnum):
