@@ -20,7 +20,7 @@ public:
     void store(std::string_view message, std::shared_ptr<const Violations> broken_rules = nullptr) noexcept {
         try {
             const std::string shown = platform::printable_lines(message);
-            text_ = std::string_view(shown); // reuses the memory of text_
+            text_ = std::string_view(shown);
             shown_ = nullptr;
             broken_rules_ = std::move(broken_rules);
         } catch (...) {

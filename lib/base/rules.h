@@ -43,8 +43,8 @@ inline const char *finite_rule(double value) {
 constexpr double min_length = 1e-18;
 constexpr double max_length = 1e18;
 
-// In float32, squares of lengths must be normal numbers (1e-36 > 2^-126), and squared distances must be finite: a
-// component center + motion - position is at most 3e18, and 3 * (3e18)^2 = 2.7e37 < 2^128.
+// In float32, squares of lengths must be normal numbers (1e-36 > 2^-126), and squared distances must be finite:
+// components of center + motion - position are at most 3e18, and 3 * (3e18)^2 = 2.7e37 < 2^128.
 constexpr bool is_positive_length(double value) {
     return value >= min_length && value <= max_length;
 }

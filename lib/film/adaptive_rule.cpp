@@ -72,7 +72,6 @@ bool is_level(std::uint64_t sample_count) {
     return sample_count >= first_level && std::has_single_bit(sample_count);
 }
 
-// The loops go row by row, because a division per tile would take longer than the rest.
 std::vector<double> tile_gains(const TileSamples &samples, std::span<const double> squares) {
     std::vector<double> shares; // by set
     for (const SampleSet &set : samples.sets())
@@ -185,7 +184,6 @@ std::optional<TileStep> AdaptivePlan::next(const TileSamples &samples, AdaptiveR
     return next_apart(samples, round);
 }
 
-// While all tiles have equal samples, the error is checked at the same counts as without adaptive sampling.
 std::optional<TileStep> AdaptivePlan::next_together(const TileSamples &samples, AdaptiveRound &round) const {
     const std::uint64_t count = samples.least();
     if (samples.even() && is_level(count) && are_worth_telling_apart(tile_gains(samples, film_.squares())))

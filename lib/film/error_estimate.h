@@ -24,7 +24,6 @@ struct ErrorEstimate {
 // With fewer samples per pixel the error is unknown.
 inline constexpr std::uint32_t min_estimate_samples = 16;
 
-// 95% of a normal distribution are within this many standard deviations.
 inline constexpr double normal_95 = 1.96;
 
 // An estimate from fewer equal pixels is uncertain. Calibrated.

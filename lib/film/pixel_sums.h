@@ -79,7 +79,6 @@ public:
     // Copies the common pixels of two rectangles of an image: `own` for this object and `of_from` for `from`.
     void copy(const Rectangle &own, const PixelSums &from, const Rectangle &of_from) noexcept;
 
-    // Numbers of accepted and rejected samples in each part.
     PartCounts samples_of(std::size_t pixel) const;
 
     // Whether the sums are possible for these numbers of samples.

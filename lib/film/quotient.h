@@ -9,7 +9,6 @@ namespace pt {
 
 __extension__ using WideSum = unsigned __int128;
 
-// Divides numbers in units of 2^exponent.
 class Divisor {
 public:
     Divisor(std::uint32_t divisor, int exponent);

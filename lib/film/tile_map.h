@@ -29,8 +29,7 @@ public:
         std::optional<std::size_t> tile;
     };
 
-    // Throws PT_ERROR_INCOMPATIBLE if tiles overlap. A tile is in at most as many bands as it has rows, so the map is
-    // no larger than the film's sums.
+    // Throws PT_ERROR_INCOMPATIBLE if tiles overlap.
     explicit TileMap(const std::vector<FilmTile> &tiles);
 
     const std::vector<Band> &bands() const { return bands_; }

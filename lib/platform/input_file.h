@@ -1,4 +1,3 @@
-// Reads files from the beginning, partly or whole.
 #pragma once
 
 #include "lib/platform/file.h"

@@ -89,8 +89,8 @@ public:
     pt_result start(const pt_accumulate_info &wanted);
 
     struct Advance {
-        pt_result result; // PT_PENDING while samples are running
-        double fraction;  // finished fraction of the samples
+        pt_result result;
+        double fraction;
     };
 
     // After an exception no samples are running.

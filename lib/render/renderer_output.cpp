@@ -156,7 +156,6 @@ std::span<std::byte> Renderer::map(const ImageLayout &layout) {
     return mapped_image_;
 }
 
-// The caller's device is the only device, so its film has all samples.
 void Renderer::readback(const BufferImage &image) {
     require_alive();
     if (!is_on_lent_device())

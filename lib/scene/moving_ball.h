@@ -54,8 +54,7 @@ inline MovingBall seen_ball(const MovingBall &ball, const Camera &camera) {
 // Float32 may be wrong about the side of a point that is within this fraction of the radius.
 inline constexpr double side_margin = 0x1p-16;
 
-// Balls that differ by more than this fraction of their radii are distinct. The error 2^-22 d of a distance d reaches
-// this only at 2^20 radii, where rounding of centers is visible anyway.
+// Balls that differ by more than this fraction of their radii are distinct.
 inline constexpr double two_spheres = 0.25;
 
 inline double with_margin(double length) {

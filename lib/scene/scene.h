@@ -83,8 +83,8 @@ SpherePlace place_of_sphere(const Scene &scene, std::size_t position);
 
 SpherePlace place_of_index(const Scene &scene, std::size_t index);
 
-// Films identify a scene by this digest of the surfaces and their materials. It depends on the order of surfaces. It
-// does not depend on unused materials, the order and repetition of materials, or the use of structs or columns.
+// Films identify a scene by this digest. It depends on the order of surfaces, but not on unused materials or on the
+// order and repetition of materials.
 std::string digest_of(const Scene &scene);
 
 void add(Digest &digest, const Material &material);

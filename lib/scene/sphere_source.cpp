@@ -163,7 +163,7 @@ void SphereSource::read_colors(std::span<const std::uint32_t> indices, std::span
     });
 }
 
-// A sphere is in the last part that begins at or before its index. Empty parts begin where the next part begins.
+// A sphere is in the last part that begins at or before its index.
 template <typename Element, typename Read>
 void SphereSource::read_parts(std::span<const std::uint32_t> indices, std::span<Element> elements,
                               Read read_part) const {

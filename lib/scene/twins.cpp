@@ -64,7 +64,6 @@ double reach(const CurvedPlane &) {
     return same_size;
 }
 
-// Elements sorted by their places along generic_direction.
 class Line {
 public:
     template <typename Element>

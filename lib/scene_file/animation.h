@@ -1,4 +1,3 @@
-// A scene file's key frames.
 #pragma once
 
 #include "lib/scene_file/scene_override.h"

@@ -76,7 +76,6 @@ public:
     }
 
 private:
-    // An open array or object.
     struct Level {
         JsonStep step;
         std::set<std::string> keys{};

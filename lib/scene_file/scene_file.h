@@ -53,7 +53,6 @@ struct Capsule {
     Look look;
 };
 
-// The source of a value that libpt refuses.
 struct RuleSource {
     std::string message;  // "scene.json:7: materials.gold.glossiness = -1: must be >= 0"
     std::size_t line = 0; // 0: the value is not in the file

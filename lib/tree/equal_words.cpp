@@ -54,7 +54,6 @@ private:
 
 } // namespace
 
-// Fetches slots ahead of their use.
 bool has_equal_words(std::span<const glm::uvec4> words, WorkProgress &progress) {
     Slots slots(words);
     std::array<std::uint64_t, 32> hashes;

@@ -1,4 +1,3 @@
-// A logical device. It runs submissions in order.
 #pragma once
 
 #include "lib/vulkan/caller_vulkan.h"

@@ -32,7 +32,6 @@ public:
 
     void note_kernel() { has_news_ = true; }
 
-    // Passes the kernels to the caller if the driver's bytes have changed.
     void save(const Log &log) noexcept;
 
     void abandon() { cache_.release(); }
