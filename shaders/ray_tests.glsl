@@ -6,8 +6,8 @@
 #include "scene.glsl"
 #include "tree.glsl"
 
-// With KNOWN_SIDES paths stay on the camera's side of each surface. Without it a vertex that rounding puts on the wrong
-// side of a close surface would end the path or let it through the surface.
+// With KNOWN_SIDES paths stay on the camera's side of each surface. Otherwise rounding may put a vertex on the wrong
+// side of a close surface, where the path ends or passes through the surface.
 
 struct Start {
     vec3 origin;
