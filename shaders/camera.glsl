@@ -25,7 +25,7 @@ vec3 camera_direction(CameraView camera, vec2 from_middle)
 }
 
 // Rays start at the pinhole. With STARTS_AHEAD they start on the plane through the origin perpendicular to the view. No
-// surface in view is before this plane (lib/kernel/ray_start.h).
+// surface in view is before this plane (lib/view/ray_start.h).
 vec3 camera_origin(CameraView camera, vec2 from_middle)
 {
     if (STARTS_AHEAD == 0)

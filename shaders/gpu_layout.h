@@ -104,7 +104,7 @@ PT_CONSTANT WORKGROUP_SIZE = 64;
 // Surface indices count spheres, then planes, then with TREE the tree's spheres by slot.
 PT_CONSTANT NO_SURFACE = 0xffffffffu;
 // Consecutive blocks, with S = spheres + planes:
-//   geometry[S]       sphere: center as the shutter opens, radius; plane: unit normal, offset (lib/scene/seen_scene.h)
+//   geometry[S]       sphere: center as the shutter opens, radius; plane: unit normal, offset (lib/view/seen_scene.h)
 //   emission[S]       radiance R, G, B; mean of the three
 //   diffuse[S]        albedo / pi; probability of choosing the specular lobe
 //   specular[S]       factor (n + 2) / (2 pi); glossiness n (with GLOSS)

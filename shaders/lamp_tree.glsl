@@ -1,4 +1,4 @@
-// The tree of lamps, which lib/scene/lamp_tree.cpp builds.
+// The tree of lamps, which lib/view/lamp_tree.cpp builds.
 #ifndef LAMP_TREE_GLSL
 #define LAMP_TREE_GLSL
 

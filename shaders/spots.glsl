@@ -1,5 +1,5 @@
 // Spots are small regions that are far brighter than their surroundings (README.md, section 7). A glow is a region of a
-// plane close to a lamp. An image is a lamp's mirror image in a polished surface. lib/kernel/light_spots.h finds spots.
+// plane close to a lamp. An image is a lamp's mirror image in a polished surface. lib/view/light_spots.h finds spots.
 #ifndef SPOTS_GLSL
 #define SPOTS_GLSL
 

@@ -1,7 +1,7 @@
 #include "lib/kernel/accuracy.h"
 
 #include "lib/base/error.h"
-#include "lib/kernel/specialised_pipeline.h"
+#include "lib/code/specialised_pipeline.h"
 #include "lib/vulkan/buffer.h"
 #include "lib/vulkan/compute_pipeline.h"
 #include "shaders/specialization.h"

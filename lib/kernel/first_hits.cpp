@@ -1,7 +1,7 @@
 #include "lib/kernel/first_hits.h"
 
+#include "lib/code/specialised_pipeline.h"
 #include "lib/film/pixel_format.h"
-#include "lib/kernel/specialised_pipeline.h"
 #include "shaders/gpu_layout.h"
 
 #include <algorithm>

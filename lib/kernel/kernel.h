@@ -1,14 +1,14 @@
 #pragma once
 
 #include "lib/kernel/device_film.h"
-#include "lib/kernel/gpu_scene.h"
-#include "lib/kernel/point_sequence.h"
-#include "lib/kernel/scene_features.h"
 #include "lib/kernel/scene_kernel.h"
 #include "lib/kernel/tile_lists.h"
 #include "lib/kernel/tile_slice.h"
 #include "lib/kernel/trace_pipelines.h"
+#include "lib/points/point_sequence.h"
 #include "lib/scene/render_settings.h"
+#include "lib/view/gpu_scene.h"
+#include "lib/view/scene_features.h"
 #include "lib/vulkan/compute_pipeline.h"
 #include "lib/vulkan/device.h"
 #include "shaders/gpu_layout.h"

@@ -1,7 +1,7 @@
 #include "lib/kernel/scene_kernel.h"
 
 #include "lib/base/error.h"
-#include "lib/kernel/specialised_pipeline.h"
+#include "lib/code/specialised_pipeline.h"
 #include "shaders/gpu_layout.h"
 
 #include <algorithm>

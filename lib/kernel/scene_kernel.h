@@ -1,7 +1,7 @@
 // A kernel other than the path tracer that reads the scene.
 #pragma once
 
-#include "lib/kernel/gpu_scene.h"
+#include "lib/view/gpu_scene.h"
 #include "lib/vulkan/compute_pipeline.h"
 #include "lib/vulkan/device.h"
 

@@ -1,8 +1,8 @@
 #include "lib/kernel/trace_pipelines.h"
 
-#include "lib/kernel/scene_blocks.h"
+#include "lib/code/specialised_pipeline.h"
 #include "lib/kernel/scene_kernel.h"
-#include "lib/kernel/specialised_pipeline.h"
+#include "lib/view/scene_blocks.h"
 #include "shaders/specialization.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "lib/kernel/own_kernel_clock.h"
-#include "lib/kernel/scene_features.h"
-#include "lib/kernel/shader_source.h"
+#include "lib/code/own_kernel_clock.h"
+#include "lib/code/shader_source.h"
+#include "lib/view/scene_features.h"
 #include "lib/vulkan/compute_pipeline.h"
 #include "lib/vulkan/device.h"
 

@@ -1,10 +1,10 @@
 #pragma once
 
+#include "lib/code/shader_source.h"
 #include "lib/film/film_header.h"
-#include "lib/kernel/prepared_scene.h"
-#include "lib/kernel/shader_source.h"
 #include "lib/scene/camera.h"
 #include "lib/scene/render_settings.h"
+#include "lib/view/prepared_scene.h"
 
 #include <pt/devices.h>
 

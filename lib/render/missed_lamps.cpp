@@ -1,6 +1,6 @@
 #include "lib/render/missed_lamps.h"
 
-#include "lib/scene/seen_scene.h"
+#include "lib/view/seen_scene.h"
 
 #include <pt/stats.h>
 

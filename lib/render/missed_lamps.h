@@ -1,9 +1,9 @@
 #pragma once
 
 #include "lib/film/error_estimate.h"
-#include "lib/render/small_lamps.h"
 #include "lib/scene/camera.h"
 #include "lib/scene/render_settings.h"
+#include "lib/view/small_lamps.h"
 
 #include <cstdint>
 #include <span>

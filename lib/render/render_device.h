@@ -1,19 +1,19 @@
 // One device of a context. Any device may take any samples, because films are exact sums.
 #pragma once
 
+#include "lib/code/shader_source.h"
 #include "lib/kernel/buffer_writer.h"
 #include "lib/kernel/device_film.h"
 #include "lib/kernel/error_reader.h"
 #include "lib/kernel/film_sum.h"
 #include "lib/kernel/first_hits.h"
-#include "lib/kernel/gpu_scene.h"
 #include "lib/kernel/image_reader.h"
 #include "lib/kernel/kernel.h"
 #include "lib/kernel/resolve.h"
-#include "lib/kernel/shader_source.h"
 #include "lib/kernel/trace_pipelines.h"
 #include "lib/render/schedule.h"
 #include "lib/scene/render_settings.h"
+#include "lib/view/gpu_scene.h"
 #include "lib/vulkan/device.h"
 #include "lib/vulkan/instance.h"
 

@@ -2,7 +2,7 @@
 
 #include "lib/base/error.h"
 #include "lib/kernel/accuracy.h"
-#include "lib/kernel/gpu_scene.h"
+#include "lib/view/gpu_scene.h"
 #include "lib/vulkan/device_choice.h"
 
 #include <algorithm>

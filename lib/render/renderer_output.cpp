@@ -3,12 +3,12 @@
 #include "lib/film/film_facts.h"
 #include "lib/film/pixel_format.h"
 #include "lib/film/tile_map.h"
-#include "lib/kernel/displacement.h"
-#include "lib/kernel/gpu_scene.h"
 #include "lib/render/film_identity.h"
 #include "lib/render/missed_lamps.h"
 #include "lib/render/renderer.h"
 #include "lib/render/saved_film.h"
+#include "lib/view/displacement.h"
+#include "lib/view/gpu_scene.h"
 
 #include <algorithm>
 #include <bit>

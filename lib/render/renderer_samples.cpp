@@ -1,7 +1,7 @@
 #include "lib/base/error.h"
 #include "lib/film/adaptive_rule.h"
-#include "lib/kernel/gpu_scene.h"
 #include "lib/render/renderer.h"
+#include "lib/view/gpu_scene.h"
 
 #include <algorithm>
 #include <chrono>

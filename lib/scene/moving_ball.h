@@ -72,6 +72,25 @@ inline bool may_hold_origin(const MovingBall &ball, double slack = 0.0) {
     return !(least_distance(ball.open, ball.way) > with_margin(ball.radius) + slack);
 }
 
+// Whether parallel rays may start on both sides of a ball. True if float32 cannot decide.
+//
+// Rays start on a disc. Let a be the center's distance from the disc's plane, and c its distance from the disc's axis.
+// Squared distances between the center and points of the disc are a^2 + max(c - start_radius, 0)^2 to a^2 + (c +
+// start_radius)^2. A moving ball is replaced by the ball around its motion.
+inline bool divides_start(const MovingBall &ball, const Camera &camera, double slack = 0.0) {
+    if (camera.start_radius == 0.0 || !may_hold_origin(ball, camera.start_radius + slack))
+        return false;
+    const glm::dvec3 center = ball.open + 0.5 * ball.way;
+    const double along = glm::dot(center, camera.forward);
+    const double across = glm::length(center - along * camera.forward);
+    const double nearest = std::hypot(along, std::max(across - camera.start_radius, 0.0));
+    const double farthest = std::hypot(along, across + camera.start_radius);
+    const double height = std::abs(glm::length(center) - ball.radius);
+    const double rounded = side_margin * std::min(ball.radius, std::max(height, camera.start_radius));
+    const double margin = rounded + 0.5 * glm::length(ball.way) + slack;
+    return nearest <= ball.radius + margin && farthest >= ball.radius - margin;
+}
+
 // Whether both surfaces, or an end ball of a capsule and the other surface, nearly coincide.
 inline bool nearly_coincide(const MovingBall &ball, const MovingBall &other) {
     const double apart = other.kind == Kind::capsule

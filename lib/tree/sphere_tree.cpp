@@ -1,6 +1,5 @@
 #include "lib/tree/sphere_tree.h"
 
-#include "lib/scene/seen_scene.h"
 #include "lib/tree/coincident_spheres.h"
 #include "lib/tree/equal_words.h"
 #include "lib/tree/middle.h"

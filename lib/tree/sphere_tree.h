@@ -70,7 +70,7 @@ public:
     // Whether the camera is at any time inside a sphere. True if float32 cannot decide.
     bool may_hold(const Camera &camera) const;
 
-    // Whether parallel rays may start on both sides of a sphere (seen_scene.h).
+    // Whether parallel rays may start on both sides of a sphere (moving_ball.h).
     bool divides_start(const Camera &camera) const;
 
     // Finds the sphere with the least of_sphere(). of_region() must be a lower bound for all spheres within a ball.

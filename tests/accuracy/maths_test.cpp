@@ -2,7 +2,7 @@
 
 #include "accuracy_skips.spv.h"
 #include "lib/base/error.h"
-#include "lib/kernel/shader_source.h"
+#include "lib/code/shader_source.h"
 #include "shaders/gpu_layout.h"
 #include "tests/accuracy/comparison.h"
 #include "tests/kernel/probe.h"

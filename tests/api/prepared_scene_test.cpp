@@ -1,4 +1,4 @@
-#include "lib/kernel/prepared_scene.h"
+#include "lib/view/prepared_scene.h"
 
 #include "lib/scene/scene.h"
 

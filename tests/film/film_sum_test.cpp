@@ -1,5 +1,5 @@
+#include "lib/code/shader_source.h"
 #include "lib/kernel/film_sum.h"
-#include "lib/kernel/shader_source.h"
 #include "tests/film/film_words.h"
 #include "tests/vulkan/device_fixture.h"
 

@@ -1,9 +1,9 @@
 // Compares means and standard errors with exact integers and long double. PT_TEST_SUMS sets the number of random sums.
+#include "lib/code/shader_source.h"
 #include "lib/film/pixel_format.h"
 #include "lib/film/quotient.h"
 #include "lib/kernel/buffer_writer.h"
 #include "lib/kernel/image_reader.h"
-#include "lib/kernel/shader_source.h"
 #include "tests/film/exact_quotient.h"
 #include "tests/film/film_words.h"
 #include "tests/film/random_sums.h"

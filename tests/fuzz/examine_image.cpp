@@ -2,10 +2,10 @@
 #include "tests/fuzz/examine.h"
 
 #include "lib/base/error.h"
-#include "lib/kernel/gpu_scene.h"
 #include "lib/scene/camera.h"
 #include "lib/scene/checked_scene.h"
 #include "lib/scene/render_settings.h"
+#include "lib/view/gpu_scene.h"
 #include "tests/fuzz/on_device.h"
 #include "tests/support/checked_scene_of.h"
 

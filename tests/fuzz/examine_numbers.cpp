@@ -3,13 +3,13 @@
 
 #include "lib/base/error.h"
 #include "lib/base/struct_size.h"
-#include "lib/kernel/gpu_scene.h"
-#include "lib/kernel/scene_blocks.h"
-#include "lib/kernel/scene_features.h"
 #include "lib/scene/camera.h"
 #include "lib/scene/checked_scene.h"
-#include "lib/scene/lamp_tree.h"
 #include "lib/scene/render_settings.h"
+#include "lib/view/gpu_scene.h"
+#include "lib/view/lamp_tree.h"
+#include "lib/view/scene_blocks.h"
+#include "lib/view/scene_features.h"
 #include "tests/support/checked_scene_of.h"
 
 #include <pt/stats.h>

@@ -1,6 +1,6 @@
 // Finds the surface that rounding moves by more than a pixel.
-#include "lib/kernel/displacement.h"
 #include "lib/scene/checked_scene.h"
+#include "lib/view/displacement.h"
 #include "tests/support/checked_scene_of.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // Regions in which hidden surfaces confine paths.
-#include "lib/kernel/gpu_scene.h"
-#include "lib/kernel/kernel_surfaces.h"
-#include "lib/kernel/scene_features.h"
+#include "lib/view/gpu_scene.h"
+#include "lib/view/kernel_surfaces.h"
+#include "lib/view/scene_features.h"
 #include "tests/support/checked_scene_of.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // Compares two kinds of rays with long double: rays towards a huge sphere, and rays that start a few ulp off a sphere.
 #include "intersection.spv.h"
-#include "lib/kernel/gpu_scene.h"
+#include "lib/view/gpu_scene.h"
 #include "tests/kernel/probe.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 #include "tests/geometry/heap_tree.h"
 
-#include "lib/kernel/prepared_scene.h"
+#include "lib/view/prepared_scene.h"
 #include "tests/support/checked_scene_of.h"
 
 #include <gtest/gtest.h>

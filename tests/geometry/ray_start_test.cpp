@@ -1,7 +1,7 @@
-#include "lib/kernel/prepared_scene.h"
-#include "lib/kernel/ray_start.h"
 #include "lib/scene/checked_scene.h"
-#include "lib/scene/seen_scene.h"
+#include "lib/view/prepared_scene.h"
+#include "lib/view/ray_start.h"
+#include "lib/view/seen_scene.h"
 #include "tests/support/checked_scene_of.h"
 #include "tests/support/scene_of.h"
 

@@ -1,5 +1,5 @@
 // Finds surfaces that count as one, and lamps close to another sphere.
-#include "lib/scene/twins.h"
+#include "lib/view/twins.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "lib/kernel/gpu_scene.h"
 #include "lib/scene/checked_scene.h"
+#include "lib/view/gpu_scene.h"
 #include "tests/support/checked_scene_of.h"
 #include "tests/support/coursework_scene.h"
 

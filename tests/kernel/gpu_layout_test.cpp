@@ -1,6 +1,6 @@
-#include "lib/kernel/gpu_scene.h"
-#include "lib/kernel/scene_blocks.h"
-#include "lib/scene/seen_scene.h"
+#include "lib/view/gpu_scene.h"
+#include "lib/view/scene_blocks.h"
+#include "lib/view/seen_scene.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // Runs the path-tracing kernel on a small film. The test chooses scene and constants.
 #pragma once
 
+#include "lib/code/shader_source.h"
+#include "lib/code/specialised_code.h"
 #include "lib/film/pixel_sums.h"
-#include "lib/kernel/gpu_scene.h"
-#include "lib/kernel/shader_source.h"
-#include "lib/kernel/specialised_code.h"
 #include "lib/scene/checked_scene.h"
+#include "lib/view/gpu_scene.h"
 #include "tests/film/film_words.h"
 #include "tests/invariance/invariance_scene.h"
 #include "tests/kernel/probe.h"

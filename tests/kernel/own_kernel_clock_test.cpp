@@ -1,4 +1,4 @@
-#include "lib/kernel/own_kernel_clock.h"
+#include "lib/code/own_kernel_clock.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Runs small kernels that call shader functions.
 #pragma once
 
-#include "lib/kernel/point_sequence.h"
+#include "lib/points/point_sequence.h"
 #include "lib/vulkan/compute_pipeline.h"
 #include "lib/vulkan/device.h"
 #include "lib/vulkan/instance.h"

@@ -1,5 +1,5 @@
-#include "lib/kernel/gpu_scene.h"
-#include "lib/kernel/scene_blocks.h"
+#include "lib/view/gpu_scene.h"
+#include "lib/view/scene_blocks.h"
 
 #include <gtest/gtest.h>
 #include <pt/pt.h>

@@ -1,5 +1,5 @@
-#include "lib/kernel/gpu_scene.h"
-#include "lib/kernel/scene_features.h"
+#include "lib/view/gpu_scene.h"
+#include "lib/view/scene_features.h"
 #include "tests/support/checked_scene_of.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Run-time compilation gives the embedded words. Broken files give messages.
-#include "lib/kernel/shader_source.h"
+#include "lib/code/shader_source.h"
 
 #include "lib/base/error.h"
 #include "tests/api/shader_folder.h"

@@ -1,7 +1,7 @@
-#include "lib/kernel/specialised_code.h"
+#include "lib/code/specialised_code.h"
 
-#include "lib/kernel/scene_features.h"
-#include "lib/kernel/shader_source.h"
+#include "lib/code/shader_source.h"
+#include "lib/view/scene_features.h"
 
 #include <pt/pt.h>
 

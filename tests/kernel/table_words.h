@@ -1,7 +1,7 @@
 // A small scene in the layout of large ones, with a table of materials.
 #pragma once
 
-#include "lib/kernel/scene_features.h"
+#include "lib/view/scene_features.h"
 
 #include <algorithm>
 #include <bit>

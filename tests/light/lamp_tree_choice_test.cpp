@@ -1,6 +1,6 @@
 #include "lamps.spv.h"
-#include "lib/kernel/gpu_scene.h"
-#include "lib/kernel/scene_blocks.h"
+#include "lib/view/gpu_scene.h"
+#include "lib/view/scene_blocks.h"
 #include "shaders/specialization.h"
 #include "tests/kernel/probe.h"
 #include "tests/support/lamp_scenes.h"

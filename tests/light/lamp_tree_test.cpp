@@ -1,6 +1,6 @@
-#include "lib/kernel/lamp_tree_words.h"
-#include "lib/kernel/scene_blocks.h"
-#include "lib/scene/lamp_tree.h"
+#include "lib/view/lamp_tree.h"
+#include "lib/view/lamp_tree_words.h"
+#include "lib/view/scene_blocks.h"
 #include "tests/support/lamp_scenes.h"
 
 #include <gtest/gtest.h>

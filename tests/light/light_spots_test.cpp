@@ -1,6 +1,6 @@
 // Spots are planes close to a lamp, and surfaces that mirror a lamp.
-#include "lib/kernel/gpu_scene.h"
-#include "lib/kernel/light_spots.h"
+#include "lib/view/gpu_scene.h"
+#include "lib/view/light_spots.h"
 
 #include <gtest/gtest.h>
 #include <pt/pt.h>

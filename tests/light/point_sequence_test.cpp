@@ -1,4 +1,4 @@
-#include "lib/kernel/point_sequence.h"
+#include "lib/points/point_sequence.h"
 
 #include <gtest/gtest.h>
 #include <pt/pt.h>

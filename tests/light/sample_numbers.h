@@ -1,6 +1,6 @@
 #pragma once
 
-#include "lib/kernel/point_sequence.h"
+#include "lib/points/point_sequence.h"
 #include "sample_numbers.spv.h"
 #include "shaders/specialization.h"
 #include "tests/kernel/probe.h"

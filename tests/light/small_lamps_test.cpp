@@ -1,7 +1,7 @@
 #include "lib/render/missed_lamps.h"
-#include "lib/render/small_lamps.h"
 #include "lib/scene/camera.h"
 #include "lib/scene/checked_scene.h"
+#include "lib/view/small_lamps.h"
 #include "tests/support/checked_scene_of.h"
 #include "tests/support/scene_of.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "lib/kernel/prepared_scene.h"
+#include "lib/view/prepared_scene.h"
 
 #include <cstdint>
 #include <utility>

@@ -1,7 +1,7 @@
 // First hits by independent formulas in long double, with the errors of float32.
 #pragma once
 
-#include "lib/scene/seen_scene.h"
+#include "lib/view/seen_scene.h"
 
 #include <pt/pt.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "lib/kernel/gpu_scene.h"
+#include "lib/view/gpu_scene.h"
 
 #include <pt/pt.h>
 

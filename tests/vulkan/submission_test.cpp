@@ -3,8 +3,8 @@
 #include "tests/vulkan/device_fixture.h"
 
 #include "lib/base/error.h"
+#include "lib/code/shader_source.h"
 #include "lib/kernel/accuracy.h"
-#include "lib/kernel/shader_source.h"
 #include "tests/support/expected_error.h"
 #include "tests/vulkan/held_work.h"
 #include "tests/vulkan/recurrence.h"

@@ -1,10 +1,10 @@
 // A scene as one camera sees it, in the kernel's layout (shaders/gpu_layout.h).
 #pragma once
 
-#include "lib/kernel/prepared_scene.h"
-#include "lib/kernel/scene_features.h"
 #include "lib/scene/camera.h"
 #include "lib/scene/render_settings.h"
+#include "lib/view/prepared_scene.h"
+#include "lib/view/scene_features.h"
 #include "shaders/gpu_layout.h"
 
 #include <memory>

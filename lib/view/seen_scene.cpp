@@ -1,4 +1,4 @@
-#include "lib/scene/seen_scene.h"
+#include "lib/view/seen_scene.h"
 
 #include "lib/base/error.h"
 #include "lib/base/rules.h"
@@ -93,23 +93,6 @@ void require_held_motions(const SeenScene &seen, const Scene &scene, const Camer
                                                    : "the camera") +
                                    " than a 65536th of its radius (" + number_text(sphere.radius) +
                                    ") must move less than a 32nd of it while the shutter is open"});
-}
-
-// Rays start on a disc. Let a be the center's distance from the disc's plane, and c its distance from the disc's axis.
-// Squared distances between the center and points of the disc are a^2 + max(c - start_radius, 0)^2 to a^2 + (c +
-// start_radius)^2. A moving ball is replaced by the ball around its motion.
-bool divides_start(const MovingBall &ball, const Camera &camera, double slack) {
-    if (camera.start_radius == 0.0 || !may_hold_origin(ball, camera.start_radius + slack))
-        return false;
-    const glm::dvec3 centre = ball.open + 0.5 * ball.way;
-    const double along = glm::dot(centre, camera.forward);
-    const double across = glm::length(centre - along * camera.forward);
-    const double nearest = std::hypot(along, std::max(across - camera.start_radius, 0.0));
-    const double farthest = std::hypot(along, across + camera.start_radius);
-    const double height = std::abs(glm::length(centre) - ball.radius);
-    const double rounded = side_margin * std::min(ball.radius, std::max(height, camera.start_radius));
-    const double margin = rounded + 0.5 * glm::length(ball.way) + slack;
-    return nearest <= ball.radius + margin && farthest >= ball.radius - margin;
 }
 
 bool divides_start(const CurvedPlane &flat, const Camera &camera) {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "lib/kernel/prepared_scene.h"
 #include "lib/scene/camera.h"
+#include "lib/view/prepared_scene.h"
 
 #include <glm/glm.hpp>
 

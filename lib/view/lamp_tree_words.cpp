@@ -1,7 +1,7 @@
-#include "lib/kernel/lamp_tree_words.h"
+#include "lib/view/lamp_tree_words.h"
 
-#include "lib/kernel/scene_blocks.h"
-#include "lib/scene/lamp_tree.h"
+#include "lib/view/lamp_tree.h"
+#include "lib/view/scene_blocks.h"
 #include "shaders/gpu_layout.h"
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "lib/base/error.h"
-#include "lib/kernel/prepared_scene.h"
 #include "lib/scene/camera.h"
 #include "lib/scene/render_settings.h"
+#include "lib/view/prepared_scene.h"
 
 #include <optional>
 

@@ -1,4 +1,4 @@
-#include "lib/scene/lamp_tree.h"
+#include "lib/view/lamp_tree.h"
 
 #include <algorithm>
 #include <bit>

@@ -2,8 +2,8 @@
 
 #include "lib/scene/camera.h"
 #include "lib/scene/moving_ball.h"
-#include "lib/scene/seen_scene.h"
 #include "lib/tree/sphere_tree.h"
+#include "lib/view/seen_scene.h"
 
 #include <cstdint>
 #include <vector>

@@ -1,10 +1,10 @@
-#include "lib/kernel/scene_features.h"
+#include "lib/view/scene_features.h"
 
-#include "lib/kernel/lamp_tree_words.h"
-#include "lib/kernel/scene_blocks.h"
-#include "lib/scene/lamp_tree.h"
-#include "lib/scene/seen_scene.h"
 #include "lib/tree/tree_choice.h"
+#include "lib/view/lamp_tree.h"
+#include "lib/view/lamp_tree_words.h"
+#include "lib/view/scene_blocks.h"
+#include "lib/view/seen_scene.h"
 
 #include <pt/stats.h>
 

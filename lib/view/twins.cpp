@@ -1,4 +1,4 @@
-#include "lib/scene/twins.h"
+#include "lib/view/twins.h"
 
 #include <algorithm>
 #include <cmath>

@@ -58,8 +58,7 @@ SeenScene seen_scene(const Scene &scene, const Camera &camera);
 // Throws PT_ERROR_UNSUPPORTED if a nearly flat sphere moves too far. Rays start at `camera` (ray_start.h).
 void require_held_motions(const SeenScene &seen, const Scene &scene, const Camera &camera);
 
-// Whether parallel rays may start on both sides of a surface. True if float32 cannot decide.
-bool divides_start(const MovingBall &ball, const Camera &camera, double slack = 0.0);
+// As for balls (lib/scene/moving_ball.h).
 bool divides_start(const CurvedPlane &flat, const Camera &camera);
 
 } // namespace pt

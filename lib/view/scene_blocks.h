@@ -1,6 +1,6 @@
 #pragma once
 
-#include "lib/kernel/scene_features.h"
+#include "lib/view/scene_features.h"
 #include "shaders/gpu_layout.h"
 
 #include <bit>

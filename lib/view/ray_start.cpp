@@ -1,8 +1,8 @@
-#include "lib/kernel/ray_start.h"
+#include "lib/view/ray_start.h"
 
 #include "lib/base/error.h"
 #include "lib/base/rules.h"
-#include "lib/scene/seen_scene.h"
+#include "lib/view/seen_scene.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "lib/scene/seen_scene.h"
+#include "lib/view/seen_scene.h"
 
 namespace pt {
 

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "lib/kernel/kernel_surfaces.h"
-#include "lib/kernel/point_sequence.h"
-#include "lib/kernel/prepared_scene.h"
+#include "lib/points/point_sequence.h"
 #include "lib/scene/camera.h"
 #include "lib/scene/render_settings.h"
-#include "lib/scene/twins.h"
+#include "lib/view/kernel_surfaces.h"
+#include "lib/view/prepared_scene.h"
+#include "lib/view/twins.h"
 #include "shaders/specialization.h"
 
 #include <array>

@@ -1,4 +1,4 @@
-#include "lib/kernel/specialised_code.h"
+#include "lib/code/specialised_code.h"
 
 #include "lib/base/spirv.h"
 

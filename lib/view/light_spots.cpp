@@ -1,6 +1,6 @@
-#include "lib/kernel/light_spots.h"
+#include "lib/view/light_spots.h"
 
-#include "lib/kernel/scene_blocks.h"
+#include "lib/view/scene_blocks.h"
 #include "shaders/specialization.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "lib/kernel/shader_source.h"
+#include "lib/code/shader_source.h"
 
 #include "accuracy.spv.h"
 #include "add.spv.h"

@@ -1,12 +1,12 @@
-#include "lib/kernel/gpu_scene.h"
+#include "lib/view/gpu_scene.h"
 
 #include "lib/base/mixed.h"
-#include "lib/kernel/lamp_tree_words.h"
-#include "lib/kernel/light_spots.h"
-#include "lib/kernel/ray_start.h"
-#include "lib/kernel/scene_blocks.h"
-#include "lib/scene/seen_scene.h"
-#include "lib/scene/twins.h"
+#include "lib/view/lamp_tree_words.h"
+#include "lib/view/light_spots.h"
+#include "lib/view/ray_start.h"
+#include "lib/view/scene_blocks.h"
+#include "lib/view/seen_scene.h"
+#include "lib/view/twins.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,6 +1,6 @@
-#include "lib/render/small_lamps.h"
+#include "lib/view/small_lamps.h"
 
-#include "lib/scene/seen_scene.h"
+#include "lib/view/seen_scene.h"
 
 #include <algorithm>
 #include <cmath>

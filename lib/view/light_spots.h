@@ -1,9 +1,9 @@
 // Spots are small bright places that random rays seldom hit (shaders/spots.glsl).
 #pragma once
 
-#include "lib/kernel/kernel_surfaces.h"
-#include "lib/kernel/scene_features.h"
 #include "lib/scene/scene.h"
+#include "lib/view/kernel_surfaces.h"
+#include "lib/view/scene_features.h"
 
 #include <cstdint>
 #include <vector>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "lib/kernel/point_sequence.h"
-#include "lib/kernel/specialised_code.h"
+#include "lib/code/specialised_code.h"
+#include "lib/points/point_sequence.h"
 #include "lib/vulkan/compute_pipeline.h"
 #include "lib/vulkan/device.h"
 #include "shaders/specialization.h"

@@ -1,4 +1,4 @@
-#include "lib/kernel/kernel_surfaces.h"
+#include "lib/view/kernel_surfaces.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,7 +1,7 @@
-#include "lib/kernel/displacement.h"
+#include "lib/view/displacement.h"
 
 #include "lib/base/rules.h"
-#include "lib/kernel/ray_start.h"
+#include "lib/view/ray_start.h"
 
 #include <algorithm>
 #include <array>
