@@ -1,4 +1,4 @@
-// Camera rays. The camera is at or behind the origin.
+// The camera is at or behind the origin.
 #ifndef CAMERA_GLSL
 #define CAMERA_GLSL
 

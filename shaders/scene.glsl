@@ -67,7 +67,6 @@ vec4 scene_word_among(uint first, uint count, uint index)
 // Whether surfaces of one material share its words, which is slower in small scenes.
 const bool HAS_TABLE = SCENE_SOURCE == SCENE_IN_STORAGE;
 
-// First words of the blocks.
 const uint EMISSION = SURFACE_COUNT;
 const uint EMITTING_SPHERES = LAMP_COUNT + SKY_COUNT;
 const uint DIFFUSE = 2u * SURFACE_COUNT;

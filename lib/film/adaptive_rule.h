@@ -1,7 +1,6 @@
 // Decides which tiles of a film take more samples. A tile's number of samples per pixel is a level: 16, 32, 64, .... In
 // each round, a tile doubles its samples while its gain, the expected decrease of the squared error per added sample,
-// exceeds a bound. The bound falls from round to round until the image's error is small enough. The order of the tiles
-// does not matter.
+// exceeds a bound. The bound falls from round to round until the image's error is small enough.
 #pragma once
 
 #include "lib/film/error_estimate.h"

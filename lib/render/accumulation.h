@@ -1,5 +1,5 @@
 // Adds samples to the films of devices, in slices of tiles. Every sample that has begun is completed. Only run() starts
-// slices. Devices continue working between calls.
+// slices.
 #pragma once
 
 #include "lib/film/tile_samples.h"
