@@ -4,8 +4,9 @@
 
 namespace pt {
 
-// The kernel pays after a second of use. Waiting that long costs at most twice the optimum (ski rental problem). The
-// wait doubles after a kernel that did not pay, and is reset after one that did.
+// Decides when a scene gets its own kernel. After a second of use the kernel has saved the time of its build. To wait
+// for a second first takes at most twice the optimal time (ski rental problem). The wait doubles if a kernel was used
+// for less than that, and is reset otherwise.
 class OwnKernelClock {
 public:
     static constexpr double seconds_to_pay = 1.0;

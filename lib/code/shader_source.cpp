@@ -22,8 +22,8 @@ namespace pt {
 
 namespace {
 
-// Searches beside the library, so that an installed tree can be moved, then in the system's path, but never in the
-// working directory. The module stays loaded, because glslang keeps tables.
+// Searches beside the library, so that an installed tree can be moved, then in the system's path. The module stays
+// loaded, because glslang keeps tables.
 pt_compile_glsl_fn load_compiler(const std::string &shader_directory) {
     const std::filesystem::path folder = platform::folder_with(reinterpret_cast<const void *>(&load_compiler));
     const std::filesystem::path name = platform::module_file("pt-glsl");
@@ -42,7 +42,7 @@ pt_compile_glsl_fn load_compiler(const std::string &shader_directory) {
                                                  .rule = "the compiler's module cannot be loaded: " + reasons});
 }
 
-// No exception may cross the module's C frame.
+// Exceptions must not pass through the module's C code.
 struct Compilation {
     std::vector<std::byte> bytes;
     std::exception_ptr error;

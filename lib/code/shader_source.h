@@ -23,12 +23,11 @@ struct KernelCode {
 
 KernelCode embedded_code();
 
-// Digest of all code that affects pixels.
 std::string digest_of(const KernelCode &code);
 
 class ShaderSource {
 public:
-    // The directory has a .comp file for each member of KernelCode. Empty means embedded code.
+    // The directory must have a .comp file for each member of KernelCode. Empty: embedded code.
     explicit ShaderSource(std::string directory) : directory_(std::move(directory)) {}
 
     bool is_embedded() const { return directory_.empty(); }

@@ -63,13 +63,13 @@ struct Fact {
     std::optional<std::uint32_t> value;
     std::optional<std::uint32_t> spec_id;
     std::uint32_t place = 0;
-    std::uint32_t taken = 0; // the only branch that is followed, or 0
+    std::uint32_t taken = 0; // target of the only branch that is followed, or 0
     bool is_reached = false;
-    bool is_merge = false; // whether a kept instruction merges here
+    bool is_merge = false; // whether a kept instruction names it as merge block
     bool is_there = false;
 };
 
-// Evaluates constants, finds reachable blocks and functions, and writes these. Throws Unknown.
+// Evaluates constants, finds reachable blocks and functions, and writes them. Throws Unknown.
 class Specialiser {
 public:
     Specialiser(Words code, Words constants) : code_(code), constants_(constants), facts_(code[bound_word]) {
@@ -175,7 +175,7 @@ private:
     }
 
     // Follows the first block of a function, or the calls and branches of a block. If the condition of a branch is
-    // constant, follows only one side. Branches that end a loop stay.
+    // constant, follows only one side, except in branches that end a loop.
     void follow(std::uint32_t id) {
         const std::size_t place = fact(id).place;
         if (place == 0)
@@ -232,14 +232,14 @@ private:
         });
     }
 
-    // Most instructions have their result in word 2. Other instructions have another kept instruction's result there,
-    // so noting it is harmless.
+    // Most instructions have their result in word 2. In the others this word names the result of another kept
+    // instruction, so that noting it is harmless.
     void note_result(Words instruction, std::uint32_t block) {
         const Opcode opcode = opcode_of(instruction);
         if (block != 0 && !fact(block).is_reached)
             return;
         if (opcode == OpLoopMerge && !fact(instruction[2]).is_reached)
-            throw Unknown(); // the loop would lack its continue block
+            throw Unknown(); // the loop would have no continue block
         if ((opcode == OpSelectionMerge && fact(block).taken == 0) || opcode == OpLoopMerge)
             fact(instruction[1]).is_merge = true;
         const bool is_type = opcode >= OpTypeVoid && opcode <= OpTypeForwardPointer;
@@ -304,7 +304,7 @@ private:
         }
     }
 
-    // Drops values from blocks that no longer branch to this one.
+    // Drops values from blocks that do not branch to this one any more.
     void write_phi(Words phi, std::uint32_t block) {
         const std::size_t start = result_.size();
         put(phi.first(3));
@@ -330,7 +330,7 @@ private:
 
 std::vector<std::uint32_t> specialised_code(std::span<const std::uint32_t> spirv,
                                             std::span<const std::uint32_t> constants) {
-    constexpr std::uint32_t most_ids = 1U << 22; // least limit by the specification
+    constexpr std::uint32_t most_ids = 1U << 22; // the limit that all implementations must support
     if (spirv.size() < spirv::header_words || spirv[spirv::bound_word] > most_ids)
         return {};
     try {

@@ -1,5 +1,5 @@
-// Sets specialization constants and removes unreachable code. Drivers do so only after translating and inlining the
-// whole kernel, which takes them most of their time.
+// Sets specialization constants and removes unreachable code. Drivers would do so only after they have translated and
+// inlined the whole kernel, which takes most of their time.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace pt {
 
-// constants[i] has the id i. Other constants keep their defaults. The result computes the same bits. Unknown code gives
-// no result, and the driver must specialise it.
+// constants[i] is the value of constant_id i. Other constants keep their defaults. Returns an empty vector for code
+// that it does not know; the driver must then specialise the code.
 std::vector<std::uint32_t> specialised_code(std::span<const std::uint32_t> spirv,
                                             std::span<const std::uint32_t> constants);
 

@@ -21,7 +21,7 @@ namespace {
 constexpr double full_turn = 2.0 * std::numbers::pi;
 constexpr double float_pi = 3.14159274101257324;
 
-// Folding to a quarter turn makes zeros exact.
+// Reduces the argument to a quarter turn, so that zeros are exact.
 double sine_of_turn(double u) {
     if (u > 0.5)
         return -sine_of_turn(u - 0.5);
@@ -37,33 +37,35 @@ constexpr float complements[] = {0.0625F, 0.25F, 0.5F, 0.75F, 0.875F, 0.999F};
 constexpr float exponents[] = {-0.5F, -1.0F, -1.5F, -24.5F, -99.5F};
 constexpr float powers_of_two[] = {1.0F, 2.0F, 4.0F};
 
-// Each bound is the sum of the errors of all steps, in units of u = 2^-24. An ulp is 1 to 2 u of its value. Sums and
-// products add an error of u. Vulkan allows 2.5 ulp for division and 2 ulp for inversesqrt ("Precision and Operation of
-// SPIR-V Instructions").
+// Relative errors are in units of 2^-24. An ulp is at least one unit of the value, so errors of k units before the last
+// operation are at most k ulp of the result. Rounding the result adds half an ulp. Sums and products have an error of 1
+// unit. Vulkan allows 2.5 ulp for division and 2 ulp for inversesqrt ("Precision and Operation of SPIR-V
+// Instructions").
 constexpr ElementaryFunction functions[] = {
-    // The sine adds the errors 1 of 1/2 - u, 1 of the product and 1.95 of q. Near 1 (p = 4), the cosine adds 0.5 of
-    // w^2, 1 of the last sum of p, 1.2 of the cofactor, 0.9 of the constant and 0.1 of the remainder. Rounding the
-    // result adds half an ulp to either.
+    // Errors of the sine: 1 from 1/2 - u, 1 from the product with m, 1.95 from q. Errors of the cosine, largest near 1
+    // where p = 4: 0.5 from w^2, 1 from the last sum of p, 1.2 from the factor of w^2 in this sum, 0.9 from the rounded
+    // constant, 0.1 from the approximation.
     {"sine (sin_cos_turn)", sine_of_turn, 4.5, 0x1p-100F, 1.0F, turns},
     {"cosine (sin_cos_turn)", cosine_of_turn, 4.5, 0x1p-100F, 1.0F, turns},
-    // The polynomial adds the errors 0.7 of the last sum, 0.2 of the constant and 0.4 of the rest. Rounding the result
-    // adds half an ulp. At 1/4, where an ulp is 2^-25, Vulkan allows 16 ulp (2^-21) for log2, and 1 - y adds 2 ulp.
+    // Errors of the polynomial: 0.7 from the last sum, 0.2 from the rounded constant, 0.4 from the rest. From y = 1/4
+    // on, Vulkan allows log2 an error of 2^-21. At 1/4, where an ulp is 2^-25, this is 16 ulp, and the rounding of 1 -
+    // y adds 2 ulp.
     {"log2(1 - x) (log2_one_minus)", [](double x) { return std::log1p(-x) / std::numbers::ln2; }, 18.0, 0x1p-100F,
      0x1.fffffep-1F, complements},
     // Vulkan allows 3 + 2 |x| ulp.
     {"2^x (exp2_negative)", [](double x) { return std::exp2(x); }, 203.0, -0x1p-100F, -100.0F, exponents},
-    // For k = 0, e = r (0.69 + w) adds the errors 0.9 of the sum, 0.1 of the constant, 0.4 of w and 0.2 of the
-    // remainder. Rounding the result adds half an ulp. For k = -1 and r = 1/2 the error is 1.6 ulp.
+    // Errors of e = r (0.69 + w): 0.9 from the sum, 0.1 from the rounded constant, 0.4 from w, 0.2 from the
+    // approximation. For k = 0 the result is -e. For k = -1 the error is at most 1.6 ulp, at r = 1/2.
     {"1 - 2^x (one_minus_exp2)", [](double x) { return -std::expm1(x * std::numbers::ln2); }, 2.5, -0x1p-100F, -100.0F,
      exponents},
-    // sqrt adds 4 u of inversesqrt and 2.5 ulp of the division.
+    // Vulkan allows sqrt the error of 1 / inversesqrt: 4 units from inversesqrt and 2.5 ulp from the division.
     {"pi / x (division)", [](double x) { return float_pi / x; }, 2.5, 0x1p-100F, 0x1p100F, powers_of_two},
     {"square root (sqrt)", [](double x) { return std::sqrt(x); }, 6.5, 0x1p-100F, 0x1p100F, powers_of_two},
     {"1 / square root (inversesqrt)", [](double x) { return 1.0 / std::sqrt(x); }, 2.0, 0x1p-100F, 0x1p100F,
      powers_of_two},
 };
 
-// is a NaN
+// The bits of a NaN.
 constexpr std::uint32_t unwritten = 0xffffffffU;
 constexpr std::size_t guard_words = 64;
 
@@ -86,7 +88,7 @@ std::vector<float> accuracy_arguments(const ElementaryFunction &function) {
         arguments.insert(arguments.end(),
                          {std::nextafter(below, small), below, place, above, std::nextafter(above, large)});
     }
-    // Multiples of the golden ratio modulo 1 are evenly spread (Weyl 1916).
+    // Multiples of the golden ratio modulo 1 are spread evenly (Weyl 1916).
     constexpr std::uint32_t golden_ratio = 0x9e3779b9U;
     const std::uint32_t first_bits = magnitude_bits(function.first);
     const std::uint64_t bits_range = magnitude_bits(function.last) - first_bits;

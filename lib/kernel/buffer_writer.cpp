@@ -30,7 +30,7 @@ BufferWriter::~BufferWriter() {
     try {
         if (under_way_ && !device_.hangs())
             device_.finish(*under_way_);
-    } catch (...) { // A destructor cannot report a lost device.
+    } catch (...) { // a destructor cannot report a lost device
     }
 }
 

@@ -10,6 +10,7 @@
 
 namespace pt {
 
+// Offset and row_bytes must be multiples of 4.
 struct BufferTarget {
     vk::Buffer buffer;
     std::uint64_t offset;
@@ -21,7 +22,7 @@ class BufferWriter {
 public:
     struct PieceLimits {
         std::uint64_t pixels;
-        std::uint64_t bytes; // includes gaps between rows
+        std::uint64_t bytes; // bytes with gaps between rows
     };
     static PieceLimits piece_limits(const vulkan::Limits &limits);
 
@@ -30,8 +31,8 @@ public:
     BufferWriter(const BufferWriter &) = delete;
     BufferWriter &operator=(const BufferWriter &) = delete;
 
-    // Waits for the device, unless there is a semaphore to signal. Then the next call waits. Throws PT_ERROR_INTERNAL
-    // if a driver lost work. If the previous call lost work, nothing is written.
+    // Waits for the device or, if there is a semaphore to signal, leaves the wait to the next call. Throws
+    // PT_ERROR_INTERNAL if a driver lost work. If the previous call lost work, nothing is written.
     void write(const ImageQuery &query, const BufferTarget &target);
 
 private:

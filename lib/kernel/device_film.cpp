@@ -10,7 +10,7 @@ namespace pt {
 
 namespace {
 
-// A strip has whole rows of tiles if one row fits.
+// Strips have whole rows of tiles if a row fits.
 std::uint32_t strip_pixels(std::uint32_t width, std::uint32_t most) {
     const std::uint64_t row_of_tiles = std::uint64_t{width} * gpu::TILE_SIZE;
     return row_of_tiles > most ? most : static_cast<std::uint32_t>(most / row_of_tiles * row_of_tiles);

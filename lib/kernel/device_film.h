@@ -1,4 +1,4 @@
-// Exact sums of samples in a device's memory, in strips.
+// A film in a device's memory. It is divided into strips, because buffers have a limited size.
 #pragma once
 
 #include "lib/film/pixel_sums.h"
@@ -26,7 +26,7 @@ public:
     struct Strip {
         std::uint32_t first_pixel;
         std::uint32_t pixel_count;
-        vulkan::Buffer words; // planes as in PixelSums
+        vulkan::Buffer words; // the planes of PixelSums
 
         PixelRange pixels() const { return {first_pixel, pixel_count}; }
     };
@@ -57,17 +57,16 @@ public:
     // The copy has all planes, without gaps between them.
     void copy_to(const vk::raii::CommandBuffer &commands, const PixelRange &pixels, const vulkan::Buffer &to) const;
 
-    // Reads the planes that both have.
+    // Reads the planes that `sums` has.
     void read(std::uint32_t first_pixel, PixelSums &sums);
 
-    // The film changes only by replace().
+    // New sums for the whole film, which replace() puts in place.
     class NewSums {
     public:
         NewSums(vulkan::Device &device, DeviceFilm &film);
 
         void write(std::uint32_t first_pixel, const PixelSums &sums);
 
-        // All sums must have been written.
         void replace();
 
     private:
@@ -84,14 +83,14 @@ private:
     std::vector<Strip> strips_;
 };
 
-// Reads the sum of films of one size, in pieces. Throws PT_ERROR_INTERNAL if the films lack samples.
+// Reads the sum of films of equal size, in pieces. Throws PT_ERROR_INTERNAL if the films lack samples.
 void read_films(std::span<DeviceFilm *const> films, const TileSamples &samples, const PixelRange &pixels,
                 std::uint32_t most_pixels, const std::function<void(const PixelSums &)> &receive);
 
 void read_films(std::span<DeviceFilm *const> films, const TileSamples &samples, std::uint32_t first_pixel,
                 PixelSums &sums);
 
-// A power of two would put all planes into the same cache sets.
+// Not a power of two, because all planes would then be in the same cache sets.
 inline constexpr std::uint32_t piece_pixels = 130'000;
 
 std::uint32_t max_strip_pixels(const vulkan::Limits &limits, bool has_coverage = false);

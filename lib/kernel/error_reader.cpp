@@ -16,7 +16,7 @@ std::uint32_t groups_in_row(const TileGrid &grid) {
     return (grid.width + gpu::ESTIMATE_WORKGROUP_SIZE - 1) / gpu::ESTIMATE_WORKGROUP_SIZE;
 }
 
-// Units in which all squared relative errors are normal floats.
+// Units in which all squared relative errors are normal float32 numbers.
 struct RelativeUnits {
     float offset;
     float scale; // errors are below 2^FILM_MAX_EXPONENT, so error * scale / offset < 2^60
@@ -24,8 +24,8 @@ struct RelativeUnits {
 
     double undone() const { return 1.0 / (static_cast<double>(scale) * static_cast<double>(scale) * factor); }
 
-    // If the offset is far above the film's values, it dominates the denominator. Limiting the offset then scales all
-    // squares equally.
+    // An offset far above the film's values dominates the denominator, so a limit of the offset scales all squares
+    // equally.
     explicit RelativeUnits(double unit) {
         constexpr double far_above = 1e13;
         const double exact = std::sqrt(relative_offset) / unit;
@@ -98,7 +98,7 @@ TileGrid ErrorReader::grid_of(std::size_t strip) const {
     return {film_.width(), film_.strips()[strip].pixel_count / film_.width()};
 }
 
-// No kernel may be reading this memory.
+// No kernel may be using this memory.
 void ErrorReader::list_counts(const TileSamples &samples) {
     if (samples.even())
         return;

@@ -26,11 +26,11 @@ public:
 
     using Receive = std::function<void(const TileErrors &)>;
 
-    // receive() gets sums over some tiles of a row, in a fixed order.
+    // Passes sums over some tiles of a row to receive(), in a fixed order.
     void read(const ErrorQuery &query, const Receive &receive);
 
-    // The two steps of read(), for films of one strip. record() adds to commands that take samples. Their end must come
-    // before collect(). Only one such submission may be running.
+    // read() in two steps, for films of one strip. record() appends to the commands of a submission. collect() may be
+    // called after it has ended. Only one such submission may be running.
     void record(const vk::raii::CommandBuffer &commands, const ErrorQuery &query);
     void collect(const ErrorQuery &query, const Receive &receive) const;
 

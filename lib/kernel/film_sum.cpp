@@ -9,7 +9,7 @@ namespace pt {
 
 namespace {
 
-// 3.5 MiB keep a bus busy and fit into the cache.
+// 3.5 MiB, enough to keep a bus busy, and few enough for the cache.
 constexpr std::uint32_t most_piece_pixels = 1U << 15;
 
 } // namespace
@@ -64,8 +64,7 @@ void FilmSum::add_own(const vk::raii::CommandBuffer &commands, std::uint32_t fir
         add(commands, first_pixel, wanted, {home_.film.strips()[i].pixels(), own_sets_[i]});
 }
 
-// Three things happen at once: the host copies a piece, its device copies the next one, and the first device adds the
-// previous one.
+// The host copies a piece while its device copies the next one and the first device adds the previous one.
 void FilmSum::add_others(vulkan::SubmissionsUnderWay &at_home, std::uint32_t first_pixel, const PixelRange &wanted) {
     const auto piece = [&](std::uint32_t index) -> PixelRange {
         const std::uint32_t first = index * piece_pixels_;

@@ -1,4 +1,5 @@
-// Sums the films of several devices in the first device's memory (add.comp). The other films pass through host memory.
+// Sums the films of several devices in the first device's memory (add.comp). The other films are copied through host
+// memory.
 #pragma once
 
 #include "lib/kernel/device_film.h"

@@ -25,7 +25,7 @@ class FirstHits {
 public:
     FirstHits(vulkan::Device &device, std::span<const std::uint32_t> code);
 
-    // receive(bytes) gets consecutive pieces of the pixels, row by row. Objects are the kernel's surface indices.
+    // Passes consecutive pieces of the pixels, row by row, to receive(). Objects are the kernel's surface indices.
     using Receive = std::function<void(std::span<const std::byte>)>;
     void read(const BoundScene &bound, const FirstHitQuery &query, double tests_per_submission, const Receive &receive);
 

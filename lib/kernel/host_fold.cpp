@@ -10,7 +10,7 @@ namespace pt {
 
 namespace {
 
-// These planes are 0 in an empty part. rare_plane() (film.glsl) has the same order.
+// In an empty part these planes must be 0. The order is the same as in rare_plane() of film.glsl.
 constexpr std::array<std::size_t, 4> rare_planes = {gpu::FILM_SUM_WORDS - 1, 2 * gpu::FILM_SUM_WORDS - 1,
                                                     3 * gpu::FILM_SUM_WORDS - 1, gpu::FILM_REJECTED};
 

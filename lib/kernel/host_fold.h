@@ -1,5 +1,5 @@
-// Adds one part of a film to the other on the host. On lavapipe a kernel is slower, because invocations access memory
-// one at a time.
+// Adds one part of a film to the other on the host. On lavapipe this is faster than a kernel, whose invocations access
+// memory one at a time.
 #pragma once
 
 #include "lib/film/pixel_sums.h"
@@ -19,11 +19,11 @@ public:
     HostFold(const HostFold &) = delete;
     HostFold &operator=(const HostFold &) = delete;
 
-    // Needs the film in host memory, and no running submission. May be called once. If a rare word (film.glsl) is not
-    // 0, returns false and folds nothing, because the next submission expects zeros there.
+    // The film must be in host memory, and no submission may be running. May be called once. If a word of the rare
+    // planes is not 0, returns false and folds nothing, because the next submission expects zeros there.
     bool fold(std::vector<PixelRange> pixels);
 
-    // Must follow the submission.
+    // Must be called after the submission.
     void keep() noexcept { folded_.clear(); }
 
 private:

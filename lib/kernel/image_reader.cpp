@@ -7,7 +7,6 @@ namespace pt {
 
 namespace {
 
-// 3 MiB keep a bus busy, and the first piece still arrives soon.
 constexpr std::uint32_t read_pixels = 1U << 18;
 
 } // namespace
@@ -18,7 +17,7 @@ ImageReader::Pieces::Pieces(const ImageQuery &query) :
                                  total)),
     bytes_of_pixel(pixel_bytes(query.format)) {}
 
-// The host reads a piece while the device makes the next one.
+// The host reads a piece while the device computes the next one.
 void ImageReader::read(const ImageQuery &query, const std::function<void(std::span<const std::byte>)> &receive) {
     const Pieces pieces(query);
     const std::size_t slot_count = std::min<std::uint64_t>(device_.policy().queue_depth, pieces.count());

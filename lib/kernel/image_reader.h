@@ -1,4 +1,4 @@
-// Reads a film as an image. resolve.comp makes the pixels, so few bytes of each are transferred.
+// Reads a film as an image. resolve.comp computes the pixels, so that few bytes are transferred.
 #pragma once
 
 #include "lib/kernel/pixel_results.h"
@@ -22,7 +22,8 @@ public:
         pipelines_(pipelines),
         film_(film) {}
 
-    // receive(bytes) gets consecutive pieces of the pixels, row by row. Throws PT_ERROR_INTERNAL if a driver lost work.
+    // Passes consecutive pieces of the pixels, row by row, to receive(). Throws PT_ERROR_INTERNAL if a driver lost
+    // work.
     void read(const ImageQuery &query, const std::function<void(std::span<const std::byte>)> &receive);
 
     // Returns all pixels without gaps. The memory is valid until the next call.

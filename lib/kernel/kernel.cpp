@@ -81,7 +81,7 @@ Kernel::Kernel(vulkan::Device &device, TracePipelines &pipelines, DeviceFilm &fi
 void Kernel::bind_film(const vulkan::ComputePipeline &trace) {
     if (!sets_.empty())
         return;
-    std::vector<vulkan::DescriptorSet> sets; // keeps sets_ empty after a failure
+    std::vector<vulkan::DescriptorSet> sets; // sets_ stays empty after a failure
     for (const DeviceFilm::Strip &strip : film_.strips()) {
         std::vector<vulkan::BufferRange> ranges = scene_ranges(*gpu_scene_, scene_, tree_);
         ranges.insert(ranges.end(), {strip.words, points_, tile_lists_.buffer()});
@@ -118,8 +118,8 @@ void Kernel::dispatch_nothing() {
     });
 }
 
-// Each batch is one dispatch into one part of the film. The next table of points is free, because slices end in order
-// and each running slice has its own tables.
+// Each batch is one dispatch into one part of the film. The next table of points is unused, because slices end in order
+// and each running slice has tables of its own.
 std::vector<Kernel::Batch> Kernel::next_batches(const TileSlice &slice) {
     const std::uint64_t split = slice.split();
     SampleRange before = slice.before;
@@ -152,9 +152,9 @@ bool Kernel::folds_on_host() const {
     return !overlap_ && film_.is_host_memory() && device_.is_at_rest();
 }
 
-// Several invocations share a pixel's samples, so that few tiles keep the device busy.
+// Several invocations take samples of one pixel, so that few tiles keep the device busy.
 std::uint32_t Kernel::sharers_of(std::size_t tile_count, std::uint32_t sample_count) const {
-    constexpr std::uint32_t least_samples = 4; // fewer are not worth an addition to the film
+    constexpr std::uint32_t least_samples = 4;
     const std::size_t wanted = device_.policy().invocations / (tile_count * gpu::WORKGROUP_SIZE);
     return static_cast<std::uint32_t>(std::clamp<std::size_t>(wanted, 1, std::max(sample_count / least_samples, 1U)));
 }

@@ -35,12 +35,12 @@ public:
     bool can_show(const GpuScene &scene) const;
     void show(std::shared_ptr<const GpuScene> scene, const RenderSettings &settings);
 
-    // For other kernels. No work may be running.
+    // The scene's buffers for other kernels. No work may be running.
     BoundScene bound_scene();
 
     void build(TracePipelines &pipelines) const;
 
-    // Some drivers compile only at the first dispatch. No work may be running.
+    // Makes drivers compile that do so only at the first dispatch. No work may be running.
     void dispatch_nothing();
 
     std::uint32_t max_samples() const { return max_dispatch_samples_ * (max_tables - 1); }
@@ -50,12 +50,12 @@ public:
     // At most queue_depth slices may be running.
     vulkan::Device::Ticket start(const TileSlice &slice, bool on_cleared_film, const Behind &behind = {});
 
-    // Waits for a slice. Returns its seconds, or an estimate from expected_seconds if the device cannot measure.
+    // Waits for a slice. Returns its seconds as vulkan::Device::finish() does.
     double finish(vulkan::Device::Ticket ticket, double expected_seconds = 0.0);
 
 private:
-    // Each dispatch of a slice has its own table of points. Together the tables take at most 4 MiB. A split of the film
-    // may add one dispatch.
+    // Each dispatch of a slice has its own table of points. Together the tables take at most 4 MiB. A split of the
+    // samples may add one dispatch.
     static constexpr std::uint32_t max_tables = 64;
 
     struct Batch {

@@ -1,4 +1,4 @@
-// A kernel's results per pixel. A header has the number of lost pixels.
+// A kernel's results for pixels. The first bytes have the number of lost pixels.
 #pragma once
 
 #include "lib/vulkan/buffer.h"
@@ -15,7 +15,7 @@ namespace pt {
 
 class PixelResults {
 public:
-    // A multiple of every device's alignment.
+    // A multiple of the alignment of all devices.
     static constexpr std::uint64_t findings_bytes = 256;
 
     PixelResults(vulkan::Device &device, std::uint64_t bytes, const std::string &what) :
@@ -28,7 +28,7 @@ public:
     vulkan::BufferRange pixels() const { return {found_.handle(), findings_bytes, room()}; }
     vulkan::BufferRange findings() const { return {found_.handle(), 0, findings_bytes}; }
 
-    // clear() precedes the kernel. hand_over() follows.
+    // clear() must be recorded before the kernel, hand_over() after it.
     void clear(const vk::raii::CommandBuffer &commands) const { found_.clear(commands, 0, findings_bytes); }
     void hand_over(const vk::raii::CommandBuffer &commands, std::uint64_t bytes) const {
         host_.copy(commands, found_, vk::BufferCopy{.size = findings_bytes + bytes});

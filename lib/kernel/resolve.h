@@ -26,7 +26,7 @@ class ResolvePipelines {
 public:
     ResolvePipelines(vulkan::Device &device, std::span<const std::uint32_t> code) : device_(device), code_(code) {}
 
-    // Builds the pipeline of a format on first use. All have equal layouts, so buffers bound for one serve all.
+    // Builds the pipeline of a format on first use. A descriptor set for one format can be used with all.
     const vulkan::ComputePipeline &of(std::uint32_t format);
 
 private:

@@ -1,4 +1,4 @@
-// A kernel other than the path tracer that reads the scene.
+// A kernel that reads the scene, except the path tracer.
 #pragma once
 
 #include "lib/view/gpu_scene.h"
@@ -14,7 +14,7 @@
 
 namespace pt {
 
-// Puts the scene's bindings, which do not depend on a tree, before the further ones.
+// Returns the scene's bindings and the further ones.
 std::vector<vulkan::Binding> with_scene_bindings(std::initializer_list<vulkan::Binding> further);
 std::vector<vulkan::BufferRange> scene_ranges(const GpuScene &scene, const vulkan::Buffer &words,
                                               const vulkan::Buffer *tree);
@@ -46,7 +46,7 @@ private:
     std::optional<vulkan::ComputePipeline> pipeline_;
 };
 
-// Rays with about this many tests together, at least one ray.
+// Returns the number of rays that take about this many tests together, at least 1.
 double rays_for(double tests, const GpuScene &scene);
 
 void require_all_met(std::uint32_t lost_pixels);

@@ -1,4 +1,4 @@
-// Lists of tiles for dispatches. An entry is the film index of a tile's first pixel.
+// Lists of tiles for dispatches. An entry is the index of a tile's first pixel in the film.
 #pragma once
 
 #include "lib/film/tile_grid.h"
@@ -27,7 +27,7 @@ public:
 
     const vulkan::Buffer &buffer() const { return entries_; }
 
-    // Tiles are ascending. The list is valid until queue_depth more slices have begun.
+    // Tiles must ascend. The list is valid until queue_depth more slices have begun.
     std::uint32_t first_entry(std::span<const std::uint32_t> tiles) {
         if (tiles.back() - tiles.front() == tiles.size() - 1)
             return tiles.front();

@@ -9,9 +9,9 @@ namespace pt {
 
 struct TileSlice {
     std::span<const std::uint32_t> tiles;
-    SampleRange before; // hull of the tiles' samples; may be empty
+    SampleRange before; // hull of the tiles' present samples; may be empty
     SampleRange samples;
-    bool takes; // false if another device takes the samples
+    bool takes; // false: another device takes the samples
 
     std::uint64_t split() const { return split_of(hull_of(before, samples)); }
 

@@ -19,21 +19,21 @@ namespace pt {
 
 class TracePipelines {
 public:
-    // Enough for scenes that alternate. Running work uses at most the last two.
+    // Most pipelines that are kept. Running work uses at most the last two.
     static constexpr std::size_t most_kept = 8;
 
     explicit TracePipelines(vulkan::Device &device, KernelCode code = embedded_code());
 
-    // Moves out the key of the driver's cache. May be called once.
+    // Returns the key of the driver's cache. May be called once.
     std::string take_kernel_key() noexcept { return std::move(kernel_key_); }
 
-    // Returns the kernel for these features or, where faster, a kernel for this scene alone. Both compute the same
-    // bits. The first scene gets its own kernel at once, because some kernel must be built. Later scenes wait
+    // Returns the kernel for these features or, if faster, a kernel for this scene alone. Both compute the same bits.
+    // The first scene gets its own kernel at once, because a kernel must be built anyway. Later scenes wait
     // (own_kernel_clock.h). `words` is the scene buffer. `seconds` is the time spent on this scene. The result is valid
     // until the next call.
     const vulkan::ComputePipeline &trace(const Features &features, std::span<const glm::vec4> words, double seconds);
 
-    // at_once is for callers that prepare ahead, and never for polls.
+    // at_once: when kernels are prepared ahead; never: in polls, which must not build.
     enum class OwnKernels { when_they_pay, at_once, never };
     void build_own(OwnKernels when) { own_kernels_ = when; }
 

@@ -12,7 +12,7 @@ namespace pt {
 
 namespace {
 
-// A primitive polynomial over GF(2), highest power first, with initial direction numbers.
+// A primitive polynomial over GF(2), highest power first, and initial direction numbers.
 struct SobolDimension {
     std::uint32_t polynomial;
     std::array<std::uint32_t, 9> initial;
@@ -86,7 +86,7 @@ constexpr SobolDimension joe_kuo[sequence_dimensions - 1] = {
     {637, {1, 1, 3, 13, 25, 47, 39, 87, 257}},
 };
 
-using Matrix = std::array<std::uint32_t, 32>; // indexed by a bit of the sample index
+using Matrix = std::array<std::uint32_t, 32>;
 
 // v_k = m_k 2^(32 - k) by the recurrence of Bratley and Fox (ACM TOMS 14, 1988, section 2).
 constexpr Matrix direction_numbers(std::uint32_t dimension) {
@@ -118,11 +118,11 @@ constexpr std::array<Matrix, sequence_dimensions> sobol_matrices = [] {
     return matrices;
 }();
 
-// The direction numbers of one bit, for all dimensions. Combining rows is faster than combining coordinates.
+// The direction numbers of one bit, for all dimensions.
 using Row = std::array<std::uint32_t, sequence_dimensions>;
 using Rows = std::array<Row, 32>;
 
-// With motion, the third number is the time. Its fifth dimension lowers the error (tests/bench/NOTEBOOK.md).
+// With motion, the third number is the time. The fifth dimension gives it a smaller error.
 constexpr std::uint32_t dimension_of(std::uint32_t number, bool motion) {
     constexpr std::uint32_t order[] = {0, 1, 4, 2, 3};
     return motion && number < std::size(order) ? order[number] : number;
@@ -182,7 +182,7 @@ std::uint32_t radical_inverse(std::uint64_t index, std::uint32_t dimension) {
     return static_cast<std::uint32_t>((Wide{reversed} << 32) / power);
 }
 
-// In reversed digits, carries make each digit depend on more significant ones (Laine and Karras 2011; Burley,
+// Reverses the bits, so that carries make each digit depend on more significant ones (Laine and Karras 2011; Burley,
 // "Practical Hash-based Owen Scrambling", JCGT 9(4), 2020). The constants are from N. Vegdahl (2021).
 std::uint32_t owen_scrambled(std::uint32_t coordinate, std::uint32_t seed) {
     std::uint32_t v = reversed_bits(coordinate);
@@ -198,7 +198,7 @@ namespace {
 
 using Point = std::vector<std::uint32_t>;
 
-// From index 2^32 on, points repeat with other seeds.
+// From index 2^32 on, points repeat, but with other seeds.
 std::vector<std::uint32_t> scrambling_seeds(std::uint64_t seed, std::uint64_t repetition, std::uint32_t dimensions) {
     std::vector<std::uint32_t> seeds;
     std::uint64_t state = mixed(seed) + repetition;

@@ -1,4 +1,4 @@
-// Exact points of quasi-random sequences for shaders/sampler.glsl.
+// Points of quasi-random sequences for sampler.glsl.
 #pragma once
 
 #include "shaders/gpu_layout.h"
@@ -16,12 +16,12 @@ inline constexpr std::uint32_t sequence_dimensions = 64;
 
 std::uint32_t sobol(std::uint32_t index, std::uint32_t dimension);
 
-// Halton (1960) in the dimension-th prime base, rounded down to a multiple of 2^-32. Requires index < 2^35.
+// The coordinate of Halton's sequence (1960) in units of 2^-32, rounded down. Requires index < 2^35.
 std::uint32_t radical_inverse(std::uint64_t index, std::uint32_t dimension);
 
-// The blocks of a row in the point table (row_blocks() in gpu_layout.h).
+// The blocks of a row of the point table (row_blocks() in gpu_layout.h).
 struct PointLayout {
-    std::vector<std::uint32_t> block_dimensions; // shared blocks, then one branch's
+    std::vector<std::uint32_t> block_dimensions; // of the shared blocks, then of the blocks of a branch
     std::uint32_t shared_blocks;
     std::uint32_t branches;
 
@@ -35,12 +35,12 @@ struct PointLayout {
     }
 };
 
-// Flips each binary digit by a hash of the seed and the digits before it (Owen 1995).
+// Flips each binary digit by a hash of the seed and of the digits before (Owen 1995).
 std::uint32_t owen_scrambled(std::uint32_t coordinate, std::uint32_t seed);
 
 using PointBlock = std::array<std::uint32_t, 4>;
 
-// Returns a row per index. The sampler must not be PT_SAMPLER_RANDOM. The seed scrambles Sobol points.
+// Returns a row for each index. The sampler must not be PT_SAMPLER_RANDOM. The seed scrambles Sobol points.
 std::vector<PointBlock> point_table(std::uint32_t sampler, std::uint64_t seed, std::span<const std::uint32_t> indices,
                                     const PointLayout &layout);
 

@@ -17,9 +17,9 @@ namespace pt {
 
 namespace {
 
-// relative to length plus radius
+// A fraction of length + radius.
 constexpr double rounding_of_capsules = 0x1p-21;
-// Relative to the radius. The last bits of its float32 are the opacity.
+// A fraction of the radius. The last bits of its float32 are the opacity.
 constexpr double rounding_of_radii = 0.5 * (gpu::TREE_OPACITY_STEPS + 1) * 0x1p-23;
 
 // Largest displacements by rounding, in scene units.
@@ -50,11 +50,11 @@ public:
         of_parallel_(camera.vertical_extent / settings.height),
         at_distance_1_(2.0 * camera.tan_half_fov / settings.height) {}
 
-    // A lower bound. Infinite if the ball is out of view.
+    // Returns a lower bound, or infinity if the ball is out of view.
     double nearest(const MovingBall &ball) const { return at(depth_(ball)); }
 
-    // A lower bound. Long capsules and motions are halved until the parts are short or far away. A camera inside a ball
-    // sees the ball's wall.
+    // Returns a lower bound. Long capsules and motions are halved until the parts are short or far away. A camera
+    // inside a ball sees the ball's wall.
     double of_surface(const MovingBall &surface) const {
         const double depth = depth_(surface);
         const double short_way = view_ > 0.0 ? view_ : 0.25 * std::max(surface.radius, depth);
@@ -115,7 +115,6 @@ Displaced most_displaced(const PreparedScene &scene, const Camera &camera, const
     const SphereTree *tree = scene.tree.get();
     if (tree == nullptr)
         return most;
-    // Displacements of at most a pixel are skipped.
     const auto bounded = [](double ratio) {
         if (ratio < 1.0)
             return ratio;

@@ -9,8 +9,8 @@
 
 namespace pt {
 
-// Returns the visible surface that rounding moves farthest, if it moves by more than a pixel. The rule names the cause
-// and a remedy.
+// Finds the visible surface that rounding moves farthest in the image. Returns a rule with the cause and a remedy if it
+// moves by more than a pixel.
 std::optional<BrokenRule> displaced_surface(const PreparedScene &scene, const Camera &camera,
                                             const RenderSettings &settings);
 

@@ -23,7 +23,7 @@ float mean(const glm::vec3 &color) {
     return (color.r + color.g + color.b) / 3.0F;
 }
 
-// Proportional to reflectance. The diffuse part counts twice, because its light comes from a hemisphere and varies
+// Proportional to reflectance. Diffuse reflectance counts twice, because its light comes from a hemisphere and varies
 // more.
 float specular_probability(const Material &material) {
     const float specular = mean(material.specular);
@@ -87,7 +87,7 @@ public:
     }
 
 private:
-    // Adding 0 turns -0 into +0. The film would reject -0.
+    // Adds 0 to turn -0 into +0, because the film rejects -0.
     void write_emission(std::uint64_t word, const Material &material) {
         words_[word] = glm::vec4(material.emission + 0.0F, mean(material.emission));
     }

@@ -1,4 +1,4 @@
-// A scene as one camera sees it, in the kernel's layout (shaders/gpu_layout.h).
+// A scene for one camera, in the layout of gpu_layout.h.
 #pragma once
 
 #include "lib/scene/camera.h"
@@ -14,11 +14,11 @@ namespace pt {
 
 struct GpuScene {
     Features features;
-    // Positions are relative to the camera and computed in double. Motions last while the shutter is open.
+    // Positions are relative to the camera. Motions are displacements while the shutter is open.
     std::vector<glm::vec4> words;
     gpu::FrameConstants frame;
     std::shared_ptr<const SphereTree> tree; // NULL without a tree
-    double start_distance;                  // from the pinhole to the origin of coordinates
+    double start_distance;                  // distance from the pinhole to the origin of coordinates
     std::vector<std::uint32_t> objects;     // scene indices of surfaces outside the tree
 
     std::uint32_t object_of(std::uint32_t surface) const;

@@ -8,7 +8,8 @@ namespace pt {
 
 namespace {
 
-// Whether the camera is certainly inside. Motion is straight, so checking both ends suffices.
+// Whether the camera is certainly inside the sphere at all times. Motion is straight, so it suffices to check both
+// ends.
 bool holds_camera(const SeenSphere &sphere) {
     constexpr double margin = 1.0 - side_margin;
     return sphere.distance < sphere.radius * margin && glm::length(sphere.close()) < sphere.radius * margin;

@@ -17,9 +17,9 @@ struct HiddenCounts {
     std::uint32_t planes;
 };
 
-// The order is lamps, skies, other spheres, curved planes, planes. Each kind keeps the scene's order. Hidden surfaces
-// are the last lamps, first skies, last other spheres and first planes, so the visible ones form two ranges. A sky is
-// an emitting sphere around the camera. Directions towards it cannot be sampled from inside. A hidden sky that lies
+// The order is lamps, skies, other spheres, curved planes, planes. A sky is an emitting sphere around the camera, which
+// cannot be sampled from inside. Within each kind the scene's order is kept, but hidden surfaces are the last lamps,
+// first skies, last other spheres and first planes, so that the visible spheres form two ranges. A hidden sky that lies
 // apart from all visible surfaces is a lamp.
 struct KernelSurfaces {
     std::vector<SeenSphere> spheres;
@@ -32,7 +32,7 @@ struct KernelSurfaces {
 bool lies_apart(const MovingBall &ball, const CurvedPlane &flat);
 bool lies_apart(const MovingBall &ball, const PointBox &box);
 
-// Whether a hidden sphere lies apart from all visible surfaces, so that no path enters it.
+// Whether a hidden sphere lies apart from all visible surfaces. Paths then never enter it.
 bool lies_apart(const SeenSphere &hidden, const SeenScene &scene, const SphereTree *tree, const Camera &camera);
 
 KernelSurfaces kernel_surfaces(const SeenScene &distinct, const SphereTree *tree, const Camera &camera);

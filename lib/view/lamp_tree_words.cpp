@@ -12,7 +12,7 @@ namespace pt {
 
 namespace {
 
-// float32, because nodes must contain the lamps that the kernel sees.
+// float32, because nodes must contain the lamps as the kernel sees them.
 struct Ball {
     glm::vec3 open;
     glm::vec3 way{0.0F};
@@ -37,7 +37,7 @@ Ball ball_of(const SeenSphere &sphere) {
     return {glm::vec3(sphere.open), glm::vec3(sphere.way), static_cast<float>(sphere.radius)};
 }
 
-// Divides powers by the largest power. If the lamps' extent is above 1, multiplies by the extent. The kernel's
+// Divides powers by the largest power. If the lamps' extent is above 1, multiplies them by the extent. The kernel's
 // quotients of power and squared distance are then between 1e-17 and 1e17.
 std::vector<Lamp> scaled_lamps(std::span<const TreeLamp> lamps) {
     double largest_power = 0.0;
@@ -57,7 +57,7 @@ std::vector<Lamp> scaled_lamps(std::span<const TreeLamp> lamps) {
     return scaled;
 }
 
-// The center is the mean with powers as weights. Its motion is straight, so distances from it are largest at an end.
+// The center is the mean weighted by power. Motions are straight, so distances from the center are largest at an end.
 Node node_of(std::span<const Lamp> lamps) {
     Node node;
     glm::dvec3 open(0.0);
@@ -81,7 +81,7 @@ Node node_of(std::span<const Lamp> lamps) {
             spreads[end] += lamp.power * (distance * distance + 3.0 * lamp_radius * lamp_radius);
         }
     }
-    // Between the ends, the kernel rounds positions to 2^-24 of their size.
+    // At other times, the kernel rounds positions to 2^-24 of their size.
     radius += 0x1p-21 * (std::max(glm::length(middles[0]), glm::length(middles[1])) + radius);
     const double spread = std::max(
         {spreads[0] / node.power, spreads[1] / node.power, radius * radius / gpu::LAMP_TREE_BALL * (1.0 + 0x1p-20)});

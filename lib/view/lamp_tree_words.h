@@ -20,7 +20,7 @@ struct TreeLamp {
     std::uint32_t lamp;
 };
 
-// `words` has lamp_tree_words() words. `lamps` are in the tree's order.
+// `words` must have the size lamp_tree_words(). `lamps` must be in the tree's order.
 void write_lamp_tree(std::span<glm::vec4> words, std::span<const TreeLamp> lamps, bool motion);
 
 } // namespace pt

@@ -10,10 +10,10 @@ namespace pt {
 
 namespace {
 
-// Found by measurements (tests/bench/NOTEBOOK.md). A glow is worth a ray if the plane is bright, and the lamp is near
-// without covering the plane.
-constexpr double largest_glow_height = 0.2; // relative to the farthest plane's height
-constexpr double least_glow_height = 1.5;   // relative to the lamp's radius
+// A glow is worth a ray if the plane is bright, and the lamp is near the plane without touching it. The limits are
+// empirical.
+constexpr double largest_glow_height = 0.2; // a fraction of the farthest plane's height
+constexpr double least_glow_height = 1.5;   // multiple of the lamp's radius
 constexpr double least_glow_diffuse = 0.35;
 // A mirror image is worth a ray if it is bright and small. Its width is 1 / glossiness plus the width of the lamp.
 constexpr double least_image_specular = 0.45;

@@ -1,4 +1,4 @@
-// Spots are small bright places that random rays seldom hit (shaders/spots.glsl).
+// Spots are small bright regions that random rays seldom hit (spots.glsl).
 #pragma once
 
 #include "lib/scene/scene.h"
@@ -14,11 +14,11 @@ struct LightSpot {
     std::uint32_t lamp;
     std::uint32_t surface;
     float reflectance;
-    float glossiness;
+    float glossiness; // glossiness of the mirror; -1 for a glow
 };
 
-// Short paths, many lamps, or more than SPOT_LIMIT spots give none. Spots do not depend on the camera, so a moving
-// camera keeps its kernel.
+// Returns no spots for short paths, for many lamps, or if there were more than SPOT_LIMIT. Spots do not depend on the
+// camera, so a moving camera keeps its kernel.
 std::vector<LightSpot> light_spots(const KernelSurfaces &surfaces, const std::vector<Material> &materials,
                                    const Features &features);
 

@@ -29,7 +29,7 @@ double film_unit(const std::vector<Material> &materials) {
         return 1.0;
     int exponent = 0;
     std::frexp(brightest, &exponent);
-    // The kernel needs 1 / unit as a normal float32.
+    // 1 / unit must be a normal float32.
     return std::ldexp(1.0, std::clamp(exponent - 8, -120, 120));
 }
 
@@ -43,7 +43,7 @@ Scene with_lamps(Scene scene, const SphereTree &tree) {
     return scene;
 }
 
-// The tree counts only used materials. The tree's shape depends on earlier scenes, so it is left out.
+// Leaves out the tree's shape, which depends on earlier scenes.
 std::string digest_with_tree(const PreparedScene &prepared) {
     Digest digest;
     digest.add(digest_of(prepared.scene));
@@ -53,7 +53,7 @@ std::string digest_with_tree(const PreparedScene &prepared) {
     return digest.text();
 }
 
-// Fractions of the remaining work.
+// Fractions of the remaining work, for progress.
 constexpr double share_of_hidden = 0.05;
 constexpr double share_of_outlying = 0.05;
 constexpr double share_of_materials = 0.02;
@@ -70,7 +70,7 @@ std::vector<std::uint32_t> hidden_spheres(const CheckedScene &checked, WorkProgr
     return hidden;
 }
 
-// Camera rays do not check the materials of tree spheres, so hidden spheres stay outside.
+// Hidden spheres stay outside the tree, because camera rays do not check materials of tree spheres.
 std::vector<std::uint32_t> left_out_of(const CheckedScene &checked, const std::vector<std::uint32_t> &hidden,
                                        WorkProgress &progress) {
     progress.enter(share_of_outlying, static_cast<double>(checked.spheres.size()));

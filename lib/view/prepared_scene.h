@@ -15,21 +15,21 @@
 namespace pt {
 
 struct PreparedScene {
-    Scene scene; // without the tree's spheres
+    Scene scene; // without spheres of the tree
     // Radiance per film unit, a power of two. The brightest emission has 2^7 to 2^8 units. Samples up to 2^20 times as
-    // bright are accepted. Samples down to 2^-44 times as bright are exact.
+    // bright are accepted, and samples down to 2^-44 times as bright are exact.
     double film_unit;
     std::vector<Material> used_materials;
-    std::vector<std::uint32_t> used_indices; // position in used_materials of each scene material
+    std::vector<std::uint32_t> used_indices; // index into used_materials of each scene material
     bool gloss;
     std::shared_ptr<const SphereTree> tree; // NULL for few spheres
     bool moves;
-    std::vector<std::uint32_t> lamp_order; // see lamp_tree.h
+    std::vector<std::uint32_t> lamp_order; // of order_in_lamp_tree()
 
     explicit PreparedScene(Scene of);
 
-    // Makes a tree from tree_from visible spheres on, or by default where it is faster. Reuses the tree shape of
-    // `before` (may be NULL) if it fits. Does not read the caller's memory afterwards.
+    // Makes a tree if there are at least tree_from visible spheres; by default if the tree is faster. Reuses the tree
+    // shape of `before` (may be NULL) if it fits.
     PreparedScene(CheckedScene checked, std::optional<std::uint32_t> tree_from, const PreparedScene *before,
                   WorkProgress &progress);
 

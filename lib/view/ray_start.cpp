@@ -14,13 +14,13 @@ namespace pt {
 
 namespace {
 
-// Squared distances of farther starts would overflow float32. Spheres are nearer, because coordinates are at most 1e18.
+// Squared distances of farther starts would overflow float32.
 constexpr double farthest_start = 6e18;
 
-// The error of directions, 2^-24, exceeds 1/1024 of a narrower pixel.
+// In narrower pixels, the error of directions, 2^-24, exceeds 1/1024 of a pixel.
 constexpr double narrow_pixel = 0x1p-14; // side of a pixel at distance 1
 
-// The pyramid of rays through the center of the lens, and a cone around the pyramid.
+// The pyramid of rays through the center of the lens, and the cone around it.
 struct View {
     std::array<glm::dvec3, 4> corners; // directions of depth 1
     glm::dvec3 forward;
@@ -36,7 +36,7 @@ struct View {
     }
 };
 
-// depth = -offset / (normal . direction) is least at a corner.
+// The depth -offset / (normal . direction) is least at a corner.
 double nearest_depth(const CurvedPlane &plane, const View &view) {
     const double offset = std::max(plane.offset - view.aside, 0.0);
     double nearest = offset == 0.0 ? 0.0 : out_of_view;
@@ -52,8 +52,9 @@ double angle_from_middle(const glm::dvec3 &point, const View &view) {
     return std::atan2(glm::length(point - along * view.forward), along);
 }
 
-// The cone's direction nearest to the center hits the ball first. With b = d cos(angle), b - sqrt(r^2 - d^2
-// sin^2(angle)) = (d^2 - r^2) / (b + sqrt(...)). The second form does not cancel for small distant balls.
+// The cone's direction nearest to the center hits the ball first. With b = d cos(angle), the distance is b - sqrt(r^2 -
+// d^2 sin^2(angle)) = (d^2 - r^2) / (b + sqrt(r^2 - d^2 sin^2(angle))). The second form is precise for small distant
+// balls.
 double depth_of_ball(const glm::dvec3 &centre, double radius, const View &view) {
     const double distance = glm::length(centre);
     const double power = (distance - radius) * (distance + radius);
@@ -73,7 +74,7 @@ bool starts_within(const glm::dvec3 &centre, double radius, const View &) {
     return glm::length(centre) <= radius;
 }
 
-// From inside, the direction farthest from the center hits the sphere first.
+// If rays start inside, the direction farthest from the center hits the sphere first.
 double depth_from_within(const glm::dvec3 &centre, double radius, const View &view) {
     const double distance = glm::length(centre);
     const double angle = angle_from_middle(centre, view);
@@ -83,7 +84,7 @@ double depth_from_within(const glm::dvec3 &centre, double radius, const View &vi
     return (distance * std::cos(farthest) + half_chord) * std::cos(view.half_angle);
 }
 
-// In perspective, the ball around the whole motion gives a good bound.
+// In perspective, depth_of_ball() of the whole motion is a good bound.
 double depth_on_way(const MovingBall &, const View &) {
     return 0.0;
 }
@@ -103,7 +104,7 @@ struct ParallelView {
         radius(std::hypot(glm::length(half_right), glm::length(half_up))) {}
 };
 
-// depth = -height / (normal . forward) is least at a corner.
+// The depth -height / (normal . forward) is least at a corner.
 double nearest_depth(const CurvedPlane &plane, const ParallelView &view) {
     const double across =
         std::abs(glm::dot(plane.normal, view.half_right)) + std::abs(glm::dot(plane.normal, view.half_up));
@@ -114,8 +115,8 @@ double nearest_depth(const CurvedPlane &plane, const ParallelView &view) {
 }
 
 // The line of the cylinder that is nearest to the center hits the ball first. Let a be the center's depth and c its
-// distance from the line. Then a - sqrt(r^2 - c^2) = (a^2 + c^2 - r^2) / (a + sqrt(r^2 - c^2)). The second form does
-// not cancel.
+// distance from the line. The depth is a - sqrt(r^2 - c^2) = (a^2 + c^2 - r^2) / (a + sqrt(r^2 - c^2)). The second form
+// is precise.
 double depth_of_ball(const glm::dvec3 &centre, double radius, const ParallelView &view) {
     const double depth = glm::dot(centre, view.forward);
     const double across = glm::length(centre - depth * view.forward);
@@ -130,7 +131,7 @@ double depth_of_ball(const glm::dvec3 &centre, double radius, const ParallelView
     return depth > 0.0 && power > 0.0 ? power / (depth + half_chord) : 0.0;
 }
 
-// Largest distance of a ray from the parallel ray through the center.
+// Returns the largest distance of a ray from the parallel line through the center.
 double most_across(const glm::dvec3 &centre, const ParallelView &view) {
     return glm::length(centre - glm::dot(centre, view.forward) * view.forward) + view.radius;
 }
@@ -144,7 +145,7 @@ double depth_from_within(const glm::dvec3 &centre, double radius, const Parallel
     return glm::dot(centre, view.forward) + std::sqrt((radius - most) * (radius + most));
 }
 
-// A sphere is nearest at an end of its motion. The ball around the whole motion would give a worse bound.
+// The depth is least at an end of the motion. The ball around the whole motion would give a worse bound.
 double depth_on_way(const MovingBall &sphere, const ParallelView &view) {
     const double open = glm::dot(sphere.open, view.forward);
     return open + std::min(glm::dot(sphere.way, view.forward), 0.0) - sphere.radius;
@@ -157,7 +158,7 @@ double depth_of_region(const MovingBall &ball, const AnyView &view) {
     return ball.way == glm::dvec3(0.0) ? depth : std::max(depth, depth_on_way(ball, view));
 }
 
-// A ray that starts inside hits the far wall. Its start stays `margin` radii away from the surface.
+// A ray that starts inside hits the far wall. Starts stay `margin` radii away from the surface.
 template <typename AnyView>
 double depth_of_sphere(const MovingBall &sphere, const AnyView &view, double margin = 0.0) {
     const double inner = sphere.radius * (1.0 - margin) - view.aside;
@@ -166,7 +167,7 @@ double depth_of_sphere(const MovingBall &sphere, const AnyView &view, double mar
     return depth_of_region({sphere.open, sphere.way, sphere.radius * (1.0 + margin)}, view);
 }
 
-// A lower bound. Rays start so far from tree spheres that float32 can tell the side.
+// Returns a lower bound. Rays start so far from tree spheres that float32 can decide on which side they are.
 template <typename AnyView>
 double first_depth(const Scene &scene, const SphereTree *tree, const Camera &camera, const AnyView &view) {
     double depth = out_of_view;
@@ -196,8 +197,8 @@ void require_held_view(const Camera &camera, const RenderSettings &settings) {
                                        number_text(width)});
 }
 
-// Stops before the first surface, by a little more than the view's width, so no visible surface intersects the disc of
-// starts.
+// Rays start before the first surface, by a little more than the view's width, so that no visible surface intersects
+// the disc of starts.
 Camera starting_in_parallel(const Scene &scene, const SphereTree *tree, const Camera &camera,
                             const RenderSettings &settings) {
     require_held_view(camera, settings);
@@ -225,8 +226,8 @@ Camera starting_ahead(const Scene &scene, const SphereTree *tree, const Camera &
     const double depth = first_depth(scene, tree, camera, view);
     if (depth > farthest_start)
         return ahead;
-    // Stops before the first surface, by the lens's radius and the view's width, so rounding puts no start behind it.
-    // The rays of a lens converge towards the focus.
+    // Rays start before the first surface, by the lens's radius and the view's width, so that rounding puts no start
+    // behind it. A lens's rays must start before the focus.
     const double tangent = std::tan(view.half_angle);
     ahead.start_distance = std::max((1.0 - tangent) * depth - camera.lens_radius, 0.0);
     if (camera.has_lens()) {

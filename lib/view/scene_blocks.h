@@ -9,19 +9,19 @@
 
 namespace pt {
 
-// In words of four floats. 2^30 surfaces can take more than 2^32 words.
+// First words of the scene buffer's blocks (gpu_layout.h). 2^30 surfaces can take more than 2^32 words.
 struct SceneBlocks {
     std::uint64_t emission;
-    // Surface or material i has its diffuse word at diffuse + i * reflection_step.
+    // The diffuse word of surface or material i is diffuse + i * reflection_step.
     std::uint64_t diffuse;
     std::uint64_t specular;
     std::uint64_t reflection_step;
     std::uint64_t motion;
     std::uint64_t curvature;
     std::uint64_t lamp_tree;
-    std::uint64_t spots;
-    std::uint64_t index;
-    std::uint64_t tree;
+    std::uint64_t spots; // only in the uniform buffer
+    std::uint64_t index; // only in the storage buffer
+    std::uint64_t tree;  // only with a tree
     std::uint64_t word_count;
 
     explicit SceneBlocks(const Features &features);

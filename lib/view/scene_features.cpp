@@ -15,8 +15,8 @@
 
 namespace pt {
 
-// These trips suffice for two rays. For 10^6 spheres, the longest walk of invocations in lockstep has about 100 trips.
-// Samples that need more trips are lost and reported (tree_walk.glsl).
+// Enough trips for two rays: for 10^6 spheres, the longest walk of invocations in lockstep has about 100 trips. Samples
+// that need more are lost and reported (walk_was_cut in tree_walk.glsl).
 std::uint64_t loop_trips_per_walk(const Features &features) {
     constexpr std::uint64_t tree_trips = 200;
     return features.surface_count() + (features[gpu::ID_TREE] ? tree_trips : 0);
@@ -30,7 +30,7 @@ bool samples_lamps(const Features &features) {
 
 namespace {
 
-// Whether a sphere lies in the convex region around the camera that planes bound. Paths cannot leave this region.
+// Whether a sphere lies in the convex region around the camera that planes bound.
 bool is_in_region(const std::vector<CurvedPlane> &planes, const SeenSphere &sphere) {
     const std::array way = {sphere.open, sphere.close()};
     return std::ranges::all_of(planes, [&](const CurvedPlane &plane) {
@@ -51,7 +51,7 @@ bool has_known_side(const CurvedPlane &plane) {
     return static_cast<float>(plane.offset) != 0.0F;
 }
 
-// These counts take the least time to equal error (tests/bench/NOTEBOOK.md).
+// These counts take the least time to equal error. Empirical.
 std::uint32_t branches_among(std::size_t sphere_count, std::uint32_t max_path_length) {
     constexpr std::size_t very_many = 4096;
     if (sphere_count >= very_many && max_path_length > 3)
@@ -65,7 +65,7 @@ std::uint32_t rounded_up(std::uint32_t levels) {
 }
 
 // Without a tree, one loop sums over the lamps and another one chooses. A tree has loops over the top groups, down to
-// the chosen lamp, and down to a lamp that a direction hits.
+// the chosen lamp, and down to the lamp that a direction hits.
 std::uint64_t lamp_trips(const Features &features) {
     return features[gpu::ID_LAMP_TREE_LEVELS] ? gpu::LAMP_TREE_TOP_GROUPS + 2 * features[gpu::ID_LAMP_TREE_LEVELS]
                                               : 2 * std::uint64_t{features[gpu::ID_LAMP_COUNT]};
@@ -127,8 +127,8 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
     features[gpu::ID_PLANES_BLOCK] = features[gpu::ID_CURVATURE] || planes_divide || planes_are_passed ||
                                      std::ranges::any_of(lamps, is_behind_a_plane) ||
                                      (tree_lamps > 0 && !is_in_region(distinct.seen.planes, tree->bounds(), camera));
-    // Distinct flat planes need no sides, because vertices are faster. Sides are unknown if rays start on both sides of
-    // a surface or pass through it.
+    // Distinct flat planes do not need known sides. Sides are not known if rays start on both sides of a surface or
+    // pass through it.
     const bool starts_divided = distinct.seen.any_surface(divides) || (tree && tree->divides_start(camera));
     const bool some_are_passed = planes_are_passed || std::ranges::any_of(distinct.seen.spheres, is_passed);
     features[gpu::ID_KNOWN_SIDES] =
@@ -145,7 +145,7 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
     features[gpu::ID_SAMPLER] = render.sampler;
     features[gpu::ID_COVERAGE] = render.coverage;
     features[gpu::ID_GLOSS] = scene.gloss;
-    // The tree holds positions at time 0.
+    // The tree has positions at time 0.
     const bool tree_is_late = tree && tree->moves() && camera.shutter_open > 0.0;
     features[gpu::ID_MOTION] = scene.moves && (camera.shutter_close > camera.shutter_open || tree_is_late);
     Kinds kinds = tree ? tree->kinds() : Kinds();

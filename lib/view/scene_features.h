@@ -15,7 +15,7 @@
 namespace pt {
 
 struct Features {
-    // Indexed by gpu::ID_*. Constants that depend on the device are set later.
+    // By gpu::ID_*. Constants that depend on the device are set later.
     std::array<std::uint32_t, gpu::CONSTANT_COUNT> constants{};
     std::uint32_t most_branches = 0; // branches at a path's first vertex
     std::uint32_t table_materials = 0;
@@ -25,7 +25,6 @@ struct Features {
     std::uint32_t &operator[](std::uint32_t id) { return constants[id]; }
     std::uint32_t operator[](std::uint32_t id) const { return constants[id]; }
 
-    // Each surface then has its own material words.
     bool scene_in_uniform() const { return constants[gpu::ID_SCENE_SOURCE] == gpu::SCENE_IN_UNIFORM; }
     bool has_ways() const { return constants[gpu::ID_MOTION] > 0 || constants[gpu::ID_KINDS] > gpu::KIND_BALL; }
     std::uint32_t surface_count() const { return constants[gpu::ID_SPHERE_COUNT] + constants[gpu::ID_PLANE_COUNT]; }
@@ -38,19 +37,18 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
 
 bool samples_lamps(const Features &features);
 
-// Branches share a path's camera ray and first vertex, because later vertices bring most of the noise. Scenes with many
-// spheres, and paths of three vertices with spots, have fewer. Samples near a driver's limit of 65535 loop trips have
-// one.
+// Branches share a path's camera ray and first vertex, because most noise comes from later vertices. There are fewer in
+// scenes with many spheres and for paths of three vertices with spots, and one if a sample is near a driver's limit of
+// 65535 loop trips.
 std::uint32_t branch_count(const Features &features);
 
 PointLayout point_layout(const Features &features);
 
 std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Features &features);
 
-// An upper bound. Unrolled loops do not count.
+// Returns an upper bound, without unrolled loops.
 std::uint64_t loop_trips_per_sample(const Features &features);
 
-// For one ray, or for two rays from the same vertex.
 std::uint64_t loop_trips_per_walk(const Features &features);
 
 double surface_tests_per_path(const Features &features, const SphereTree *tree);
