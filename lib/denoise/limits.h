@@ -8,8 +8,7 @@ namespace pt {
 // (limited translation: Efron and Morris, "Limiting the risk of Bayes and empirical Bayes estimators", 1971).
 //
 // The standard error of a half is sqrt(2) s with s = |A - B| / 2. An estimate from one pixel is uncertain, so s is
-// raised to the median of the 3x3 pixels, but at most to 16 s. Normal noise is below 1/16 of its standard deviation in
-// only one of 20 cases.
+// raised to the median of the 3x3 pixels, but at most to 16 s.
 void limit_moves(Halves &halves);
 
 // Clips the longest moves of each half, so that they shift a channel's mean by at most one standard error.

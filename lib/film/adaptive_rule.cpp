@@ -91,7 +91,7 @@ std::vector<double> tile_gains(const TileSamples &samples, std::span<const doubl
 }
 
 // For tiles with the variances v, sample counts in proportion to sqrt(v) reach the same error with mean(sqrt v)^2 /
-// mean(v) times as many samples as equal counts. Rounding to powers of two costs up to an eighth of this gain.
+// mean(v) times as many samples as equal counts.
 bool are_worth_telling_apart(std::span<const double> gains) {
     constexpr double least_ratio = 1.2;
     double sum = 0.0;

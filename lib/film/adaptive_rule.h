@@ -1,6 +1,5 @@
-// Decides which tiles of a film take more samples. A tile's number of samples per pixel is a level: 16, 32, 64, .... In
-// each round, a tile doubles its samples while its gain, the expected decrease of the squared error per added sample,
-// exceeds a bound. The bound falls from round to round until the image's error is small enough.
+// Decides which tiles of a film take more samples (shaders/README.md, section 11). A tile's number of samples per pixel
+// is a level: 16, 32, 64, .... A tile's gain is the expected decrease of the squared error per added sample.
 #pragma once
 
 #include "lib/film/error_estimate.h"

@@ -25,8 +25,7 @@ constexpr std::uint32_t reported_side = 32; // side of the regions of smallest_t
 // to 100 ln 2 * 18 u from x and 203 u from the power (accuracy.cpp, u = 2^-24). The sum is 8.7e-5.
 constexpr double rounding_share = 1e-4;
 
-// P(|sum of e_i d_i| >= z sqrt(sum of d_i^2)) <= 2 * 3.178 P(normal >= z) for random signs e_i (Bentkus and
-// Dzindzalieta 2015).
+// Bentkus and Dzindzalieta 2015. shaders/README.md, section 11, derives the test.
 constexpr double sign_constant = 3.178;
 
 constexpr double quantile_99 = 2.326;
@@ -174,8 +173,7 @@ struct Difference {
     double event;    // largest event in standard deviations
     double skewness; // towards the other sign, >= 0
 
-    // Returns an upper bound for the probability of this difference if the light is equal. Up to 1 / event standard
-    // deviations are attributed to noise, and the rest to rare events that are absent by chance.
+    // Returns an upper bound for the probability of this difference if the light is equal.
     double probability() const {
         const double by_noise = event > 0.0 ? std::min(z, 1.0 / event) : z;
         const double by_events = event > 0.0 ? (z - by_noise) / event : 0.0;
@@ -226,8 +224,7 @@ public:
     }
 
 private:
-    // A lower bound for the number of events in an image, from the number of its pixels without light. It is 0 if a
-    // darker image is no evidence.
+    // Lower bounds for the number of events in an image. 0 if a darker image is no evidence.
     double met_by_first() const { return knowledge_.of_first ? events_in(sums_.first_lit) : 0.0; }
     double met_by_second() const { return knowledge_.of_second ? events_in(sums_.second_lit) : 0.0; }
     double events_in(double lit) const { return pixel_count_ * -std::log1p(-lit / pixel_count_); }
@@ -236,8 +233,7 @@ private:
         return deviation_ > 0.0 ? std::max(0.0, -sign * sums_.cubes / std::pow(deviation_, 3.0)) : 0.0;
     }
 
-    // `met` is the number k of events in the darker image. Their skewness is 1 / sqrt(k), with which
-    // Difference::probability() is at least e^(-k / 2 + k / 3).
+    // `met` is the number of events in the darker image.
     static double probability_of(double excess, double deviation, double event, double skewness, double met) {
         const Difference difference{excess / deviation, event / deviation, skewness};
         return std::max(difference.probability(), std::exp(-met / 6.0));
@@ -293,8 +289,6 @@ std::uint32_t light_of(const pt_compare_info &info, const pt_comparison &verdict
 
 } // namespace
 
-// Divides the rate equally among the sizes of regions, then among the regions and channels of a size (Bonferroni
-// correction).
 Comparison compare_light(const pt_compare_info &info) {
     const double look = info.look;
     const double rate = info.look > 0 ? info.rate / (look * (look + 1.0)) : info.rate;

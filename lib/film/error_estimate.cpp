@@ -110,8 +110,8 @@ bool is_check(std::uint64_t sample_count) {
 }
 
 double exaggeration(std::uint32_t sampler) {
-    // If the mean squared error falls as N^-p, the expected square of half the difference between both halves is 2^p -
-    // 1 times this error: 1 for random points (p = 1), and at most 7 for scrambled nets (p = 3, Owen 1997).
+    // The expected square of half the difference between both halves is 2^p - 1 times the squared error
+    // (shaders/README.md, section 11): 1 for random points, and at most 7 for scrambled nets (p = 3, Owen 1997).
     return sampler == PT_SAMPLER_RANDOM ? 1.0 : std::sqrt(7.0);
 }
 

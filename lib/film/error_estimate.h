@@ -41,8 +41,8 @@ ErrorEstimate unknown_error();
 
 pt_error_estimate stated(const ErrorEstimate &error);
 
-// Whether rejected samples make the error unknown. They are more than 2^20 times as bright as the brightest emission
-// (FILM_MAX_EXPONENT in gpu_layout.h), so one in 2^20 samples may outweigh all others.
+// Whether rejected samples make the error unknown. They are so bright (FILM_MAX_EXPONENT) that one in 2^20 samples may
+// outweigh all others.
 bool hides_error(std::uint64_t rejected_samples, std::uint64_t samples);
 
 // The error is checked at 16 samples, and then four times per doubling.

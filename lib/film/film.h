@@ -42,8 +42,8 @@ public:
     std::uint64_t max_sample_count() const;
     std::uint64_t total_samples() const;
 
-    // Calls receive(x, y, values) for runs of pixels within rows, in order. `pixels` is a rectangle of the image.
-    // `quantity` is a PT_QUANTITY_* that comes from samples.
+    // Calls receive(x, y, values) for runs of pixels within rows, in order. `quantity` is a PT_QUANTITY_* that comes
+    // from samples.
     using ReceiveRow = std::function<void(std::uint32_t x, std::uint32_t y, const std::vector<float> &values)>;
     void read(const Rectangle &pixels, std::uint32_t quantity, const ReceiveRow &receive) const;
 

@@ -63,12 +63,8 @@ using PartCounts = std::array<std::uint64_t, gpu::FILM_PARTS>;
 
 // Returns the index with the most trailing zero bits among all that have samples on both sides, if this index is a
 // multiple of 8. Otherwise returns the next multiple of 8 after the last sample, because parts of fewer than 8 samples
-// hardly show an error.
-//
-// The index is unique, because between two indices with equally many zeros lies one with more. So each added film
-// either has the split of the sum or lies on one side of it, and two parts are enough.
-//
-// The split of [0, 2^k) is 2^(k - 1). Both halves are among the best sets of low-discrepancy sequences.
+// hardly show an error. Between two indices with equally many zeros lies one with more, so the index is unique.
+// shaders/README.md, section 11, has the reasons.
 std::uint64_t split_of(const SampleRange &hull);
 
 PartCounts part_counts(const SampleSet &samples);

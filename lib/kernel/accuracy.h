@@ -26,7 +26,7 @@ std::span<const ElementaryFunction> elementary_functions();
 constexpr std::uint32_t arguments_per_function = 16384;
 std::vector<float> accuracy_arguments(const ElementaryFunction &function);
 
-// The error is infinite if `value` is NaN or infinite, or if only `exact` is 0.
+// Infinite if `value` is NaN or infinite, or if only `exact` is 0.
 double error_in_ulp(float value, double exact);
 
 // Values that the kernel did not write are NaN. Throws PT_ERROR_INTERNAL if it writes beyond the values.

@@ -9,7 +9,7 @@ namespace pt {
 
 namespace {
 
-// 3.5 MiB, enough to keep a bus busy, and few enough for the cache.
+// 3.5 MiB keep a bus busy and fit into the cache.
 constexpr std::uint32_t most_piece_pixels = 1U << 15;
 
 } // namespace

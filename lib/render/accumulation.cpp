@@ -132,8 +132,7 @@ double Accumulation::fraction() const {
     return std::min(static_cast<double>(done_) / static_cast<double>(wanted_), 1.0);
 }
 
-// Returns the device whose slice ends first, or NULL at `until`. Vulkan can wait for only one device, so several
-// devices are polled.
+// Returns NULL at `until`. Vulkan can wait for only one device, so several devices are polled.
 RenderDevice *Accumulation::next_to_finish(Clock::time_point until) const {
     constexpr std::chrono::microseconds pause{50};
     if (devices_.size() == 1)

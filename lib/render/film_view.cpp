@@ -7,7 +7,7 @@ namespace pt {
 
 namespace {
 
-// A band takes 56 MiB, much less than a large film.
+// 56 MiB, much less than a large film.
 constexpr std::uint32_t most_band_pixels = 1U << 19;
 
 } // namespace

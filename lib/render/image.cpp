@@ -66,7 +66,7 @@ ImageLayout checked_layout(const Subject &image, const Source &source, std::uint
                   "must be a multiple of " + number_text(alignment));
     image.require(row_bytes >= width_bytes, "row_bytes", row_bytes,
                   "must be >= " + width_text + " (" + number_text(width_bytes) + ")");
-    // Checks offset + (height - 1) * row_bytes + width_bytes <= size_bytes without overflow.
+    // offset + (height - 1) * row_bytes + width_bytes <= size_bytes, without overflow.
     const std::uint64_t room = source.size_bytes - std::min(source.size_bytes, offset);
     const bool large_enough = room >= width_bytes && (room - width_bytes) / row_bytes >= pixels.height - 1;
     const std::string before = offset == 0 ? "" : "offset_bytes + ";

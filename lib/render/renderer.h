@@ -124,7 +124,7 @@ public:
 
 private:
     struct Job {
-        double target_error; // relative; 0 for none
+        double target_error; // relative error; 0: no target
         MostSamples counts;
         std::uint64_t together_to;        // up to this count all tiles have equal samples
         bool is_together;                 // true below together_to

@@ -142,7 +142,6 @@ void Renderer::readback(const Image &image) {
         view_.read(image, query(image.layout), samples_);
 }
 
-// If the device cannot compute the image in memory that the host can read, the host computes it.
 std::span<std::byte> Renderer::map(const ImageLayout &layout) {
     require_settings();
     if (!is_of_first_hits(layout.quantity)) {

@@ -21,7 +21,6 @@ public:
     // Returns the number of remaining tiles in the next submission, at least 1.
     std::size_t tiles(std::size_t left, std::uint64_t sample_count) const;
 
-    // Number of paths that should take the time of one submission.
     double budget() const { return budget_; }
 
     double expected_seconds(double paths) const;

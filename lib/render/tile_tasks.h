@@ -41,7 +41,6 @@ public:
     void leave_behind(std::size_t tile_count) noexcept;
 
 private:
-    // Tiles with equal samples that take the same new samples.
     struct Task {
         std::uint32_t set;
         std::uint64_t wanted;

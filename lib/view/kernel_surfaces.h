@@ -32,7 +32,7 @@ struct KernelSurfaces {
 bool lies_apart(const MovingBall &ball, const CurvedPlane &flat);
 bool lies_apart(const MovingBall &ball, const PointBox &box);
 
-// Whether a hidden sphere lies apart from all visible surfaces. Paths then never enter it.
+// Whether a hidden sphere lies apart from all visible surfaces.
 bool lies_apart(const SeenSphere &hidden, const SeenScene &scene, const SphereTree *tree, const Camera &camera);
 
 KernelSurfaces kernel_surfaces(const SeenScene &distinct, const SphereTree *tree, const Camera &camera);

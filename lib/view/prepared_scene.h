@@ -16,8 +16,7 @@ namespace pt {
 
 struct PreparedScene {
     Scene scene; // without spheres of the tree
-    // Radiance per film unit, a power of two. The brightest emission has 2^7 to 2^8 units. Samples up to 2^20 times as
-    // bright are accepted, and samples down to 2^-44 times as bright are exact.
+    // Radiance per film unit, a power of two (shaders/README.md, section 11).
     double film_unit;
     std::vector<Material> used_materials;
     std::vector<std::uint32_t> used_indices; // index into used_materials of each scene material

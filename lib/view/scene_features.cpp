@@ -64,8 +64,8 @@ std::uint32_t rounded_up(std::uint32_t levels) {
     return (levels + step - 1) / step * step;
 }
 
-// Without a tree, one loop sums over the lamps and another one chooses. A tree has loops over the top groups, down to
-// the chosen lamp, and down to the lamp that a direction hits.
+// Loops to sum and to choose or, with a tree, over the top groups, to the chosen lamp, and to the lamp that a direction
+// hits.
 std::uint64_t lamp_trips(const Features &features) {
     return features[gpu::ID_LAMP_TREE_LEVELS] ? gpu::LAMP_TREE_TOP_GROUPS + 2 * features[gpu::ID_LAMP_TREE_LEVELS]
                                               : 2 * std::uint64_t{features[gpu::ID_LAMP_COUNT]};

@@ -39,8 +39,7 @@ struct CurvedPlane {
 
 CurvedPlane curved_plane(const Plane &plane, const Material &of_plane, const Camera &camera, std::uint32_t index = 0);
 
-// sphere.is_flat must be true. With center and radius in float32, the surface would have an error of 2^-24 of the
-// radius. The curved plane has an error of 2^-24 of the scene's size.
+// sphere.is_flat must be true.
 CurvedPlane curved_plane(const SeenSphere &sphere);
 
 struct SeenScene {

@@ -21,8 +21,8 @@ struct LampPiece {
     double pixels = 1.0;
     bool is_spread = false; // whether even quasi-random samples hit the piece at random
 
-    // Samples per pixel from which the number of hits has a relative standard deviation of at most a third: 8 random
-    // hits, or 3 hits of quasi-random points.
+    // Samples per pixel for a relative standard deviation of hits of at most a third: 8 random hits, or 3 hits of
+    // quasi-random points.
     double enough_samples(bool is_random) const;
 };
 
