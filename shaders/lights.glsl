@@ -1,4 +1,4 @@
-// Lamps are emitting spheres. They are chosen by a bound of their contribution and sampled by solid angle.
+// Lamps are emitting spheres, chosen by a bound of their contribution and sampled by solid angle.
 #ifndef LIGHTS_GLSL
 #define LIGHTS_GLSL
 

@@ -10,8 +10,8 @@
 #include "step.glsl"
 #include "vertex.glsl"
 
-// Light that arrives from a second vertex in the direction of a spot. It is weighted against the branches, which also
-// find it (Veach 1997, chapter 9). Light over more vertices is left to the branches.
+// Light that arrives from a second vertex in the direction of a spot. The light is weighted against the branches ,
+// which also find it (Veach 1997, chapter 9). Light over more vertices is left to the branches.
 vec3 light_by_way_of_spot(Vertex vertex, Material material, Spots spots, SampleKey key, float time)
 {
     vec3 numbers = spot_numbers(key);
@@ -41,7 +41,7 @@ float share_beside_spots(Spots spots, Path path, Vertex first, float time)
     return density > 0.0 ? power_heuristic(arrival_density, density) : 1.0;
 }
 
-// Light reflected at the first vertex. It is most of the picture's light, so several branches leave the vertex, and
+// Light reflected at the first vertex. This is most of the picture's light, so several branches leave the vertex, and
 // every lamp is sampled if there are few.
 vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
 {

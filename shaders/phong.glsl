@@ -23,8 +23,8 @@ Material material_of(uint surface)
     return Material(diffuse.rgb, specular.rgb, specular.a, choose_lobe ? diffuse.a : 0.0);
 }
 
-// Minimum probability of the lobe for a path's last direction, if lamps are sampled (shaders/README.md, section 5). It
-// is below 1, because lamp sampling misses some light.
+// Minimum probability of the lobe for a path's last direction, if lamps are sampled (shaders/README.md, section 5). The
+// minimum is below 1, because lamp sampling misses some light.
 const float LAST_SPECULAR_PROBABILITY = 0.97;
 
 Material at_last_direction(Material material)

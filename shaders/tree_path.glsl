@@ -16,7 +16,7 @@ struct TreeSample {
     Path path;
 };
 
-// Departures beyond the branches come first. They have only a shadow ray to their lamp.
+// Departures beyond the branches come first. These departures have only a shadow ray to their lamp.
 const uint FIRST_DEPARTURES = SAMPLE_EVERY_LAMP && LAMP_COUNT > BRANCH_COUNT ? LAMP_COUNT : BRANCH_COUNT;
 const uint FIRST_BRANCH = FIRST_DEPARTURES > BRANCH_COUNT ? BRANCH_COUNT : 0u;
 

@@ -73,8 +73,8 @@ ShadowRay ended_as_met_in_tree(ShadowRay shadow, Start start, float time)
     return shadow;
 }
 
-// A walk traces the vertex's shadow ray, if there is one, and then the path's ray. It changes to the path's ray as soon
-// as the shadow ray is blocked.
+// A walk traces the vertex's shadow ray, if there is one, and then the path's ray. The walk changes to the path's ray
+// as soon as the shadow ray is blocked.
 struct Walk {
     Start start;
     vec3 direction;

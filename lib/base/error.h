@@ -29,7 +29,7 @@ struct BrokenRule {
     std::string text(const std::string &name_of_field) const;
 };
 
-// The rules that one call broke. There may be millions, so only the first ones are kept. All are counted.
+// The rules that one call broke. Only the first ones are kept, because there may be millions. All are counted.
 class Violations {
 public:
     static constexpr std::size_t most_kept = 8;

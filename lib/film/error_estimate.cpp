@@ -154,8 +154,8 @@ Interval ErrorEstimator::root_mean(const ErrorSquares &squares, double other_squ
             estimate * spread};
 }
 
-// The number of pixels where both parts hit light has a standard deviation of about its square root. It is not used if
-// lamps are found by chance, because it then tells nothing about rarer light.
+// The number of pixels where both parts hit light has a standard deviation of about its square root. The number is not
+// used if lamps are found by chance, because rarer light may then be missing.
 ErrorEstimate ErrorEstimator::result() const {
     const double again = all_.met_again / channels;
     const bool by_chance = conditions_.finds_lamps_by_chance;

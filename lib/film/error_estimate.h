@@ -45,7 +45,7 @@ pt_error_estimate stated(const ErrorEstimate &error);
 // outweigh all others.
 bool hides_error(std::uint64_t rejected_samples, std::uint64_t samples);
 
-// The error is checked at 16 samples, and then four times per doubling.
+// The error is checked at 16 samples, then four times per doubling.
 std::uint64_t next_check(std::uint64_t sample_count);
 bool is_check(std::uint64_t sample_count);
 

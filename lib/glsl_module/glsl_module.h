@@ -10,8 +10,8 @@
 extern "C" {
 #endif
 
-/* Receives the bytes of the SPIR-V, or the compiler's log without a terminating zero. They are valid during the call.
- * Must not throw. */
+/* Receives the bytes of the SPIR-V, or the compiler's log without a terminating zero. The bytes are valid during the
+ * call. Must not throw. */
 typedef void (*pt_glsl_receive_fn)(void *user, const void *bytes, size_t size);
 
 /* Compiles the compute shader directory/name to the SPIR-V that the build would embed. Included files are beside the

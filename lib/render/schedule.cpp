@@ -42,7 +42,7 @@ double Schedule::expected_seconds(double paths) const {
 
 // A submission takes an overhead o, and a time 1 / r for each path. One measurement cannot separate both, so time
 // beyond the expected time counts as overhead. The step x -> x t / (o + x / r) has the only stable fixed point x = r (t
-// - o). There a submission takes t = target_seconds.
+// - o). At this point a submission takes t = target_seconds.
 void Schedule::measured(double paths, double seconds) {
     if (!(seconds >= 0.0))
         return;

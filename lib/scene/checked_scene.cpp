@@ -32,8 +32,8 @@ const char *color_rule(double value) {
     return value <= 1e18 ? nullptr : "must be <= 1e18";
 }
 
-// A lobe exp(-n a^2 / 2) falls to 1 / e at the angle a = sqrt(2 / n). There errors d = 2^-23 of float32 unit vectors
-// change the exponent by n a d = sqrt(2 n) d, which is 0.5% for n = 1e9.
+// A lobe exp(-n a^2 / 2) falls to 1 / e at the angle a = sqrt(2 / n). At this angle, errors d = 2^-23 of float32 unit
+// vectors change the exponent by n a d = sqrt(2 n) d, which is 0.5% for n = 1e9.
 const char *glossiness_rule(double value) {
     if (!std::isfinite(value))
         return "must be finite";

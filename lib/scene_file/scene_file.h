@@ -80,8 +80,8 @@ struct SceneFile {
 
     void add_sphere(const pt_sphere &sphere, const std::optional<Look> &look);
 
-    // The result points into this object. Its arrays are: the single spheres if any has a look, the capsules, then the
-    // items that are many spheres.
+    // The result points into this object. The arrays are, in this order, single spheres if any has a look, capsules,
+    // and items of many spheres.
     pt_scene scene() const;
     std::vector<pt_sphere_array> sphere_arrays() const;
     std::size_t

@@ -4,8 +4,8 @@
 
 namespace pt {
 
-// Returns the JSON Schema of scene files, draft 7 (json-schema.org/draft-07). It does not have rules on two values
-// (names of materials, look_at, up).
+// Returns the JSON Schema of scene files, draft 7 (json-schema.org/draft-07). Rules that involve two values (names of
+// materials, look_at, up) are left out.
 std::string scene_schema();
 
 } // namespace pt

@@ -46,8 +46,8 @@ PT_API pt_result pt_start(pt_context *context, const pt_accumulate_info *info);
 /** Gives the devices more work, and waits for at most this many nanoseconds; with UINT64_MAX until all samples are
  * taken.
  *
- * The call may take longer when it checks a target error, which reads the image. It builds no kernel. fraction may be
- * NULL. Otherwise it receives the finished fraction of the samples, in [0, 1], which never decreases.
+ * The call may take longer when it checks a target error, which reads the image. pt_poll builds no kernel. fraction may
+ * be NULL. Otherwise it receives the finished fraction of the samples, in [0, 1], which never decreases.
  *
  * PT_PENDING: samples are still being taken. PT_OK: all samples are taken. PT_TARGET_REACHED: fewer were enough.
  * PT_CANCELLED: pt_cancel was called; fewer samples are taken, all of them complete. PT_ERROR_INVALID_STATE: no samples

@@ -21,8 +21,8 @@ typedef struct pt_denoise_info {
     uint32_t struct_size; /**< sizeof(pt_denoise_info) */
     uint32_t width;       /**< pixels of all images, >= 1 */
     uint32_t height;      /**< pixels, >= 1; width * height <= 2^32 - 1 */
-    /** 0: the CPU. Otherwise the default device of Open Image Denoise, which its environment variable
-     * OIDN_DEFAULT_DEVICE can set. */
+    /** 0: the CPU; else the default device of Open Image Denoise, which its environment variable OIDN_DEFAULT_DEVICE
+     * can set. */
     uint32_t any_device;
     const float *first; /**< radiance: PT_QUANTITY_RADIANCE; finite */
     /** The radiance with another pt_render.seed. All else must be equal, also each pixel's number of samples. Parts of

@@ -43,8 +43,8 @@ typedef struct pt_display_info {
  * A fixed exposure lets several threads convert parts of a picture, with the same result. Any thread. */
 PT_API pt_result pt_display(const pt_display_info *info);
 
-/** Finds the exposure that brings the average to middle grey, 0.18. It is in stops, rounded to hundredths, in [-64,
- * 64].
+/** Finds the exposure that brings the average to middle grey, 0.18. The exposure is in stops, rounded to hundredths, in
+ * [-64, 64].
  *
  * The average is the exponential of the mean logarithm (Reinhard, Stark, Shirley, Ferwerda 2002, eqs. 1 and 2) of the
  * pixels' channel means. Pixels below 1/128 of the picture's mean have less weight. The exposure of black pixels is 0.

@@ -25,8 +25,8 @@
  * - Threads: Different contexts are independent. Only one thread at a time may use a context or a film, unless the
  *   function's comment says more. While one thread is in a call, calls of other threads on the same context return
  *   PT_ERROR_INVALID_STATE, except pt_cancel (pt/async.h). The library starts no threads (drivers do), prints nothing
- *   and has no globals. It reads no files outside pt_create_info.shader_dir. On Mesa's lavapipe, calls need less than
- *   256 KiB of stack.
+ *   and has no globals. The library reads no files outside pt_create_info.shader_dir. On Mesa's lavapipe, calls need
+ *   less than 256 KiB of stack.
  * - Processes: A forked child may create its own contexts. Its calls on the parent's contexts return
  *   PT_ERROR_INVALID_STATE, and its pt_destroy does not touch them, because the child lacks the driver's threads.
  * - Callbacks: A callback runs inside the call, on the calling thread, and must not throw. The calls that it makes on
@@ -76,7 +76,7 @@ enum {
 /** A renderer on one or several devices. The caller owns it from pt_create to pt_destroy. */
 typedef struct pt_context pt_context;
 
-/** The caller's own Vulkan; defined in pt/vulkan.h. */
+/** The caller's own Vulkan (pt/vulkan.h). */
 typedef struct pt_vulkan pt_vulkan;
 
 /** Reports the finished fraction of a long call, in [0, 1], which never decreases. Return 0 to go on. Any other value
@@ -204,7 +204,7 @@ typedef struct pt_scene {
 /** Values of pt_camera.projection. */
 enum {
     PT_PROJECTION_PERSPECTIVE = 0, /**< rays start at position (a pinhole) or on a lens (pt_camera.aperture) */
-    /** parallel rays along the viewing direction. They start on the plane through position perpendicular to this
+    /** parallel rays along the viewing direction. The rays start on the plane through position perpendicular to this
      * direction. Surfaces behind the plane are invisible. */
     PT_PROJECTION_ORTHOGRAPHIC = 1
 };
@@ -258,8 +258,8 @@ enum {
 
 /** Bits of pt_render.flags. */
 enum {
-    /** samples whose camera rays hit a surface are counted, for PT_QUANTITY_COVERAGE. This takes 4 more bytes a pixel
-     * and changes no bit of the radiance. */
+    /** samples whose camera rays hit a surface are counted, for PT_QUANTITY_COVERAGE. The count takes 4 more bytes a
+     * pixel and changes no bit of the radiance. */
     PT_RENDER_COVERAGE = 1
 };
 
@@ -293,8 +293,8 @@ enum {
 typedef struct pt_accumulate_info {
     uint32_t struct_size; /**< sizeof(pt_accumulate_info) */
     /** Samples to add to every pixel, >= 1; their indices stay below 2^32. If target_error is set, this limits what the
-     * pixels with most samples get. It may then be 0, to add samples only to the pixels that a stopped call left with
-     * fewer. */
+     * pixels with most samples get. sample_count may then be 0, to add samples only to pixels that a stopped call left
+     * with fewer. */
     uint32_t sample_count;
     /** NULL, or a function that pt_accumulate calls after every submission to a device. NULL for pt_start.
      *
@@ -332,8 +332,8 @@ enum {
      * error. */
     PT_QUANTITY_STANDARD_ERROR = 1,
     PT_QUANTITY_SAMPLE_COUNT = 2, /**< number of the pixel's samples, the same in all channels */
-    /* The next four describe the first hits of camera rays in the present scene. They need no samples, and treat a lens
-     * as a pinhole. */
+    /* The next four describe the first hits of camera rays in the present scene. These quantities need no samples, and
+     * treat a lens as a pinhole. */
     /** depth along the viewing direction: dot(x - camera.position, unit viewing direction), the same in all channels. x
      * is the first hit of the ray through the pixel's center, halfway between shutter_open and shutter_close. INFINITY
      * if the ray hits nothing. */
@@ -444,20 +444,20 @@ PT_API const char *pt_result_name(pt_result result);
  * PT_ERROR_SHADER: a file of pt_create_info.shader_dir does not compile. */
 PT_API pt_result pt_create(const pt_create_info *info, pt_context **context);
 
-/** Message of the last failed call on this context, or "". It is valid until the next call on the context.
+/** Message of the last failed call on this context, or "". The message is valid until the next call on the context.
  *
  * If this thread's last call was refused because another call was running, this is the message of that refusal. While
  * another thread is in a call on the context, the message says so.
  *
- * If context is NULL, this is the message of this thread's last failed call without a context. It is valid until the
- * next such call. The string is UTF-8, never NULL, and owned by the library. Never fails. */
+ * If context is NULL, this is the message of this thread's last failed call without a context. The message is valid
+ * until the next such call. The string is UTF-8, never NULL, and owned by the library. Never fails. */
 PT_API const char *pt_last_error(const pt_context *context);
 
 /** Waits for the device and frees everything. NULL is allowed. Call it from one thread, after all other calls on the
  * context. It never fails.
  *
- * It frees nothing in a forked child, in a callback of the context, or while another thread is in a call on it. The log
- * and pt_last_error report the last two cases, after which the context can be destroyed later. */
+ * pt_destroy frees nothing in a forked child, in a callback of the context, or while another thread is in a call on it.
+ * The log and pt_last_error report the last two cases, after which the context can be destroyed later. */
 PT_API void pt_destroy(pt_context *context);
 
 /** Copies a scene into the context and discards the samples.

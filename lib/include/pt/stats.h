@@ -15,7 +15,7 @@ enum {
     PT_FEATURE_GLOSS = 2,  /**< specular lobes */
     PT_FEATURE_MOTION = 4, /**< spheres that move while the shutter is open */
     PT_FEATURE_LARGE = 8,  /**< more surfaces than a uniform buffer holds, or a tree */
-    /** a tree over the spheres, if there are at least 113. It rounds centers by up to 2^-30 of the extent of its
+    /** a tree over the spheres, if there are at least 113. The tree rounds centers by up to 2^-30 of the extent of its
      * spheres. */
     PT_FEATURE_TREE = 16,
     PT_FEATURE_ORTHOGRAPHIC = 32, /**< parallel camera rays */
