@@ -4,6 +4,7 @@
 
 #include "camera.glsl"
 #include "intersect.glsl"
+#include "trace.glsl"
 #include "tree_walk.glsl"
 #include "vertex.glsl"
 
@@ -19,6 +20,7 @@ Arrival arrival_of(CameraRay ray, Hit hit)
     vec3 point = hit.distance * ray.direction;
     if (STARTS_AHEAD == 1)
         point += ray.origin;
+    trace_vertex(1u, point, vec3(1.0));
     return Arrival(point, ray.direction, hit.surface);
 }
 

@@ -45,7 +45,7 @@ struct ChosenLampNumbers {
 
 ChosenLampNumbers chosen_lamp_numbers(SampleKey branch, uint begin)
 {
-    uvec4 words = sample_words(branch, begin);
+    uvec4 words = traced_words(sample_words(branch, begin));
     return ChosenLampNumbers(vec2(words.xy >> 8u) * NUMBER_STEP, words.z);
 }
 

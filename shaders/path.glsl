@@ -8,6 +8,7 @@
 #include "phong.glsl"
 #include "spots.glsl"
 #include "step.glsl"
+#include "trace.glsl"
 #include "vertex.glsl"
 
 // Light that arrives from a second vertex in the direction of a spot. The light is weighted against the branches ,
@@ -28,6 +29,7 @@ vec3 light_by_way_of_spot(Vertex vertex, Material material, Spots spots, SampleK
     float weight = power_heuristic_over_density(density, towards.density * float(BRANCH_COUNT));
     path.throughput = towards.f * (met ? towards.cosine * weight : 0.0);
     path.vertex_count = 2u;
+    trace_vertex(2u, path.arrival.point, path.throughput);
     departure_share = 1.0;
     extend(path, key, blocks_at_spot(), MAX_PATH_LENGTH - 1u, time);
     return met ? path.radiance : vec3(0.0); // may be NaN after a miss

@@ -12,6 +12,7 @@ layout(push_constant) uniform Push { FrameConstants frame; };
 #include "film.glsl"
 #include "path.glsl"
 #include "tile_pixel.glsl"
+#include "trace.glsl"
 #include "tree_path.glsl"
 
 // `held` is a copy of the push constants, because lavapipe 22.3 reads push constants for one invocation after the
@@ -28,7 +29,7 @@ SampleKey key_of_sample(SampleKey pixel, FrameConstants held, uint number)
 
 void add_sample(FrameConstants held, inout FilmPixel gathered, vec3 radiance)
 {
-    film_add(gathered, radiance * held.film_scale);
+    film_add(gathered, traced_sample(radiance * held.film_scale));
 }
 
 // Takes samples done to end - 1.

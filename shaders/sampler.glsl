@@ -5,6 +5,7 @@
 
 #include "maths.glsl"
 #include "scene.glsl"
+#include "trace.glsl"
 
 // The sequence's points in units of 2^-32. Each sample has a row of blocks. The buffer is uniform, because all
 // invocations read the same block at a time.
@@ -78,6 +79,9 @@ uvec4 sample_words(SampleKey key, uint block)
 }
 
 // Returns multiples of 2^-24 below 1. A conversion of all 32 bits could round to 1.
-vec4 sample_block(SampleKey key, uint block) { return vec4(sample_words(key, block) >> 8u) * NUMBER_STEP; }
+vec4 sample_block(SampleKey key, uint block)
+{
+    return vec4(traced_words(sample_words(key, block)) >> 8u) * NUMBER_STEP;
+}
 
 #endif

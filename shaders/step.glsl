@@ -6,6 +6,7 @@
 #include "intersect.glsl"
 #include "lights.glsl"
 #include "phong.glsl"
+#include "trace.glsl"
 #include "tree_walk.glsl"
 #include "vertex.glsl"
 
@@ -140,6 +141,7 @@ void arrive(inout Path path, Departure departure, Lamps lamps, Hit hit, bool blo
     }
     path.arrival = Arrival(departure.origin + hit.distance * departure.direction, departure.direction, hit.surface);
     ++path.vertex_count;
+    trace_vertex(path.vertex_count, path.arrival.point, path.throughput);
 
     // Russian roulette from the fourth vertex on, relative to a branch's initial throughput. The minimum 0.05 bounds
     // the weights.

@@ -2,6 +2,8 @@
 #ifndef TILE_PIXEL_GLSL
 #define TILE_PIXEL_GLSL
 
+#include "trace.glsl"
+
 layout(set = 0, binding = BINDING_TILES) readonly buffer Tiles { uint first_pixels[]; } tiles;
 
 struct TilePixel {
@@ -21,7 +23,7 @@ TilePixel tile_pixel()
     uint in_film = corner + row * frame.camera.width + column;
     uint in_strip = in_film - frame.strip_first_pixel;
     bool exists = corner % frame.camera.width + column < frame.camera.width && in_strip < frame.strip_pixel_count;
-    return TilePixel(frame.film_first_pixel + in_film, in_strip, exists);
+    return TilePixel(traced_pixel(frame.film_first_pixel + in_film, frame.camera), in_strip, exists);
 }
 
 #endif

@@ -15,6 +15,7 @@ layout(push_constant) uniform Push { FrameConstants frame; };
 #include "maths.glsl"
 #include "scene.glsl"
 #include "tile_pixel.glsl"
+#include "trace.glsl"
 
 // ---- Numbers ------------------------------------------------------------------------------------------------------
 
@@ -37,7 +38,8 @@ float unit_number(uint word) { return float(word >> 8u) / 16777216.0; }
 float next_number()
 {
     ++dimension;
-    return unit_number(hash(dimension + hash(sample_index + hash(pixel_index + hash(frame.seed.x)))));
+    uint word = hash(dimension + hash(sample_index + hash(pixel_index + hash(frame.seed.x))));
+    return traced_number(unit_number(word));
 }
 
 // ---- Surfaces -----------------------------------------------------------------------------------------------------
@@ -123,6 +125,7 @@ vec3 sample_of(uvec2 pixel)
     Hit hit = nearest(ray);
     if (hit.distance == FAR)
         return vec3(0.0);
+    trace_vertex(1u, hit.position, vec3(1.0)); // `pt view` shows it
     return vec3(dot(hit.normal, -ray.direction));
 }
 
@@ -141,7 +144,7 @@ void main()
     for (uint i = first; i < min(first + frame.share, frame.sample_count); ++i) {
         sample_index = frame.first_sample + i;
         dimension = 0u;
-        film_add(gathered, sample_of(pixel) * frame.film_scale);
+        film_add(gathered, traced_sample(sample_of(pixel) * frame.film_scale));
     }
     film_store(frame.film_part, at.in_strip, frame.strip_pixel_count, gathered, OVERLAP == 1u, frame.is_first == 1u);
 }

@@ -257,6 +257,27 @@ class Browser(unittest.TestCase):
         self.assertEqual(glaring.sum(), 32)
         self.shot("nan")
 
+    def test_traces_a_pixel(self):
+        self.open(samples=64, shader_dir=self.kernels)
+        self.browser.until(f"{SAMPLES} === 64")
+        self.assertEqual(self.browser.value("document.getElementById('trace').hidden"), True)
+        self.tap(200, 110)
+        self.browser.until("!document.getElementById('trace').hidden")
+        self.browser.value(choose("max_path_length", 4))
+        self.browser.value(click("trace"))
+        self.browser.until("document.querySelectorAll('#vertices li').length > 4 && document.querySelectorAll('#marks circle').length > 2")
+        first = self.browser.value("document.querySelector('#vertices li').textContent")
+        self.assertRegex(first, r"^1position \S+ \S+ \S+throughput 1 1 1numbers [\d. ]+$")
+        x, y = self.browser.value("(c => [+c.getAttribute('cx'), +c.getAttribute('cy')])(document.querySelector('#marks circle'))")
+        self.assertEqual((int(x), int(y)), (200, 110))
+        self.shot("traced")
+        self.browser.value(choose("sample", 7))
+        self.browser.until(f"document.querySelector('#vertices li').textContent !== {json.dumps(first)}")
+        self.browser.value(choose("sample", -1))
+        self.assertIn("-1: must be a whole number", self.browser.until("document.querySelector('[data-of=trace]').textContent"))
+        self.browser.value(click("untrace"))
+        self.assertEqual(self.browser.value("document.querySelectorAll('#marks circle').length"), 0)
+
     def test_tiny_pixels_and_layers(self):
         self.open()
         self.browser.value("[...document.querySelectorAll('#sizes button')].at(-1).click()")

@@ -15,10 +15,10 @@ from typing import IO, NoReturn
 
 from pt._command_line import CODE_OF_RESULT, FILES, INTERNAL, SCENE, USAGE, at_least
 from pt._errors import Error
-from pt._library import library_path
 from pt._text import tell
 from pt.figures._command import add_option, joined, typed
 from pt.figures._options import Options, two
+from pt.view._trace import kernels
 
 EPILOG = """\
 The server listens only on 127.0.0.1. Everybody who has its address can control it. From another machine use
@@ -50,13 +50,6 @@ def parser() -> argparse.ArgumentParser:
         if each.metadata["group"] in groups and each.name != "size":
             add_option(groups[each.metadata["group"]], each)
     return command
-
-
-def kernels() -> pathlib.Path | None:
-    here = pathlib.Path(__file__).resolve()
-    places = (here.parents[1] / "shaders", pathlib.Path(library_path()).resolve().parents[1] / "share/pt/shaders",
-              here.parents[4] / "shaders")
-    return next((place for place in places if (place / "pathtrace.comp").exists()), None)
 
 
 def is_of_another(path: pathlib.Path) -> bool:

@@ -19,6 +19,7 @@ from pt.view._code import SHADERS, code_of
 from pt.view._frame import LAYERS, OF_SAMPLES, Frame, facts_of, faults_of, name_of
 from pt.view._rejected import rejected_samples
 from pt.view._source import Shown, Source
+from pt.view._trace import Tracer, message_of
 
 MOVING_SECONDS: Final = 0.03  # time for a sample of all pixels while the camera moves
 STILL_SECONDS: Final = 0.25
@@ -35,6 +36,7 @@ class Renderer:
         self._source, self._published, self._device, self._most = source, published, device, most
         self._shader_dir = shader_dir
         self._built_in: BuiltIn | None = None
+        self._tracer = Tracer(device, shader_dir)
         self._begins = True
         self._context: Context | None = None
         self._faults: dict[str, str] = {}
@@ -75,6 +77,11 @@ class Renderer:
             self._is_closed = True
             self._condition.notify()
         self._thread.join()
+        self._tracer.close()
+
+    def trace(self, x: int, y: int, sample: int) -> dict[str, Any]:
+        camera, settings = self._camera, self._settings
+        return message_of(self._tracer.trace(self._shown.scene, camera, settings, x, y, sample), camera, settings)
 
     def saved(self) -> tuple[str, bytes] | None:
         return self._source.saved(self._camera)

@@ -18,6 +18,7 @@ from typing import Any, Final, Protocol
 from aiohttp import WSMsgType, http_exceptions, web
 
 from pt._camera import Camera
+from pt._errors import Error
 from pt._exr import encode_exr
 from pt._files import regular, write_atomically
 from pt.view._address import Address, new_token
@@ -47,6 +48,8 @@ class Show(Protocol):
     def watch(self, is_watched: bool) -> None: ...
 
     def saved(self) -> tuple[str, bytes] | None: ...
+
+    def trace(self, x: int, y: int, sample: int) -> dict[str, Any]: ...
 
 
 @dataclass
@@ -206,6 +209,10 @@ class Server:
             elif "pixel" in message:
                 x, y = (_whole(each, 0, MOST_PIXELS) for each in message["pixel"])
                 await connection.send_json({"pixel": self.show.frame.pixel(x, y, page.look.pixels)})
+            elif "trace" in message:
+                x, y, sample = (_whole(each, 0, 2**32 - 2) for each in message["trace"])
+                traced = await self._loop.run_in_executor(None, self.show.trace, x, y, sample)
+                await connection.send_json({"trace": traced})
             elif "list" in message:
                 await connection.send_json({"files": list(self._files())})
             elif "open" in message:
@@ -219,8 +226,8 @@ class Server:
                 self.show.change(files=True)
             else:
                 self.show.change(**changes_of(message))
-        except (ValueError, TypeError, KeyError, ArithmeticError, OSError, RecursionError) as error:
-            text = str(error) if isinstance(error, ValueError) else f"{type(error).__name__}: {error}"
+        except (Error, ValueError, TypeError, KeyError, ArithmeticError, OSError, RecursionError) as error:
+            text = str(error) if isinstance(error, (Error, ValueError)) else f"{type(error).__name__}: {error}"
             await connection.send_json({"refused": text, "fields": list(message) if isinstance(message, dict) else []})
 
     def _file(self, name: Any) -> pathlib.Path:

@@ -36,5 +36,8 @@ class Still:
     def close(self) -> None:
         pass
 
+    def trace(self, x: int, y: int, sample: int) -> dict[str, Any]:
+        raise ValueError("a film has no kernel")
+
     def saved(self) -> tuple[str, bytes] | None:
         return None

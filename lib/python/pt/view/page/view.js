@@ -1,4 +1,5 @@
 import {orbit, pan, turnsAbout, zoom} from "./camera.js";
+import {PathView} from "./path.js";
 
 const $ = id => document.getElementById(id);
 
@@ -62,14 +63,19 @@ function fit() {
   mark();
 }
 
-// Outlines the pixel that is held.
+// Outlines the pixel that is held, and draws the path.
 function mark() {
-  const outline = held && `M${Math.floor(held.x * state.width)},${Math.floor(held.y * state.height)}h1v1h-1z`;
   if (!pixels)
     return;
+  const outline = held && `M${Math.floor(held.x * state.width)},${Math.floor(held.y * state.height)}h1v1h-1z`;
+  const unit = state.width / $("picture").clientWidth;
   $("marks").setAttribute("viewBox", `0 0 ${state.width} ${state.height}`);
-  $("marks").innerHTML = held ? `<path class="under" d="${outline}"/><path d="${outline}"/>` : "";
+  $("marks").innerHTML = (held ? `<path class="under" d="${outline}"/><path d="${outline}"/>` : "")
+    + path.drawn(state.width, state.height, unit);
 }
+
+const pixelOf = (place, [width, height]) => [Math.floor(place.x * width), Math.floor(place.y * height)];
+const path = new PathView(() => ask("trace", [...pixelOf(held, state.size), path.sample]), mark);
 
 const percent = share => share == null ? "unknown" : `${(100 * share).toPrecision(3)}%`;
 
@@ -102,6 +108,7 @@ function tell() {
     .filter(Boolean).join("\n");
   editor?.tell(state.faults);
   editor?.look(state.revision);
+  path.look(state);
   chart();
 }
 
@@ -149,7 +156,7 @@ function askPixel() {
   const place = pointer ?? held;
   if (place && !asks && pixels) {
     asks = true;
-    send({pixel: [Math.floor(place.x * state.width), Math.floor(place.y * state.height)]});
+    send({pixel: pixelOf(place, [state.width, state.height])});
   }
 }
 
@@ -171,6 +178,8 @@ function tellPixel(pixel) {
 
 function hold(place) {
   held = place;
+  $("trace").hidden = !held || !camera;
+  path.changes(held);
   mark();
   askPixel();
 }
@@ -357,6 +366,7 @@ function connect() {
   socket.binaryType = "arraybuffer";
   socket.onopen = () => {
     asks = false;
+    path.forget();
     if (display)
       send({display});
     send({list: true});
@@ -365,9 +375,11 @@ function connect() {
   socket.onmessage = event => {
     if (typeof event.data !== "string")
       return receive(event.data);
-    const {pixel, files, opened, text, refused, fields} = JSON.parse(event.data);
+    const {pixel, files, opened, text, trace, refused, fields} = JSON.parse(event.data);
     if (pixel)
       tellPixel(pixel);
+    else if (trace)
+      path.take(trace);
     else if (files)
       edit(files);
     else if (opened)

@@ -1,0 +1,188 @@
+"""Traced samples against independent computations in double precision."""
+
+import dataclasses
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+import numpy as np
+import pt
+from pt.view._trace import Projection, Tracer, message_of
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+WHITE, GLOSSY = pt.Material(diffuse=(0.7, 0.6, 0.5)), pt.Material(diffuse=0.3, specular=0.4, glossiness=20)
+LAMP = pt.Material(diffuse=0.2, emission=(4, 3, 2))
+WALLS = [pt.Plane(normal, 4, material) for normal, material in (
+    ((1, 0, 0), WHITE), ((-1, 0, 0), GLOSSY), ((0, 1, 0), WHITE), ((0, -1, 0), LAMP), ((0, 0, 1), WHITE), ((0, 0, -1), GLOSSY))]
+BALLS = [pt.Sphere((0, -2, 0), 1.5, GLOSSY), pt.Sphere((2, 2, -1), 1, LAMP), pt.Sphere((-2, 0, -2), 1, WHITE)]
+ROOM = pt.Scene(BALLS, WALLS)
+CAMERA = pt.Camera((0.3, 0.2, 3.5), (0, 0, 0), vertical_fov=1.2)
+SETTINGS = pt.RenderSettings(48, 32, max_path_length=4)
+NEAR = 1e-4  # rounding of float32 over distances of 12, at grazing angles
+PIXELS = ((5, 7, 0), (24, 16, 3), (40, 25, 1), (30, 9, 70))
+
+
+def surface_of(position, scene):
+    """Returns distance, normal and material of the nearest surface."""
+    found = [(abs(np.linalg.norm(position - ball.center) - ball.radius), (position - ball.center) / ball.radius, ball.material)
+             for ball in scene.spheres]
+    found += [(abs(np.dot(plane.normal, position) + plane.offset), np.array(plane.normal, float), plane.material)
+              for plane in scene.planes]
+    return min(found, key=lambda each: each[0])
+
+
+def reflectance(material, normal, arriving, leaving):
+    mirror = arriving - 2 * np.dot(arriving, normal) * normal
+    n = material.glossiness
+    return (np.multiply(material.diffuse, 1 / np.pi) +
+            np.multiply(material.specular, (n + 2) / (2 * np.pi) * max(np.dot(mirror, leaving), 0) ** n))
+
+
+def unit(vector):
+    return vector / np.linalg.norm(vector)
+
+
+class Traces(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.tracer = Tracer(None, None)
+        cls.addClassCleanup(cls.tracer.close)
+
+    def film(self, scene, camera, settings, sample, shader_dir=None):
+        with pt.Context(shader_dir=shader_dir) as context:
+            context.set_scene(scene)
+            context.set_camera(camera)
+            context.set_render(dataclasses.replace(settings, first_sample=sample))
+            context.accumulate(1)
+            return context.readback()
+
+    def check_path(self, trace, scene, camera, branches):
+        """Checks places of vertices, throughputs with uniform directions, and the radiance."""
+        light, last = np.zeros(3), {0: (np.array(camera.position), None, None, None)}
+        for vertex in trace.vertices:
+            distance, normal, material = surface_of(vertex.position, scene)
+            self.assertLess(distance, NEAR)
+            before, normal_before, material_before, arriving = last[vertex.number - 1]
+            leaving = unit(vertex.position - before)
+            normal = normal if np.dot(normal, leaving) < 0 else -normal
+            if vertex.number == 1:
+                np.testing.assert_array_equal(vertex.throughput, 1)
+            else:
+                expected = throughput_before[vertex.number - 1] * reflectance(material_before, normal_before, arriving, leaving) * max(
+                    np.dot(normal_before, leaving), 0) * 2 * np.pi / (branches if vertex.number == 2 else 1)
+                np.testing.assert_allclose(vertex.throughput, expected, rtol=2e-3, atol=1e-5)
+            last[vertex.number] = vertex.position, normal, material, leaving
+            throughput_before = {} if vertex.number == 1 else throughput_before
+            throughput_before[vertex.number] = vertex.throughput
+            light += vertex.throughput * np.array(material.emission)
+        np.testing.assert_allclose(trace.radiance, light, rtol=1e-6, atol=1e-7)
+
+    def test_a_path_is_the_sample_s(self):
+        settings = dataclasses.replace(SETTINGS, estimator=pt.Estimator.UNIFORM, sampler=pt.Sampler.RANDOM)
+        lit = 0
+        for x, y, sample in PIXELS:
+            trace = self.tracer.trace(ROOM, CAMERA, settings, x, y, sample)
+            branches = sum(vertex.number == 2 for vertex in trace.vertices)
+            self.assertEqual(len(trace.vertices), 1 + 3 * branches)
+            self.check_path(trace, ROOM, CAMERA, branches)
+            np.testing.assert_array_equal(trace.radiance, self.film(ROOM, CAMERA, settings, sample)[y, x])
+            lit += trace.radiance.any()
+        self.assertGreater(lit, 1)
+
+    def test_radiance_is_the_film_s(self):
+        random = np.random.default_rng(7)
+        many = pt.Scene([pt.Sphere(center, 0.2, GLOSSY) for center in random.uniform(-2, 2, (300, 3))] + BALLS[1:2], WALLS)
+        for scene, fields in ((ROOM, {}), (ROOM, {"sampler": pt.Sampler.HALTON_CP, "estimator": pt.Estimator.LIGHT}),
+                              (ROOM, {"sampler": pt.Sampler.HALTON, "estimator": pt.Estimator.COSINE}), (many, {})):
+            settings = dataclasses.replace(SETTINGS, **fields)
+            for x, y, sample in PIXELS[:2]:
+                trace = self.tracer.trace(scene, CAMERA, settings, x, y, sample)
+                np.testing.assert_array_equal(trace.radiance, self.film(scene, CAMERA, settings, sample)[y, x])
+                self.assertTrue(trace.vertices and max(surface_of(vertex.position, scene)[0] for vertex in trace.vertices) < NEAR)
+
+    def test_the_first_vertex_is_in_its_pixel(self):
+        for camera in (CAMERA, dataclasses.replace(CAMERA, vertical_fov=None, vertical_extent=3.0),
+                       pt.Camera((0, 0, 3e4), (0, -2, 0), vertical_fov=1e-4)):
+            scene = ROOM if camera.position[2] < 4 else pt.Scene(BALLS, [])
+            for x, y in ((24, 16), (20, 20)):
+                trace = self.tracer.trace(scene, camera, SETTINGS, x, y, 1)
+                first = trace.vertices[0]
+                across, down = message_of(trace, camera, SETTINGS)["vertices"][0]["place"]
+                self.assertEqual((int(across * 48), int(down * 32)), (x, y))
+                if camera.vertical_fov:
+                    rounding = 2**-22 * np.linalg.norm(camera.position)  # of the distance to the first surface in view
+                    self.assertLess(surface_of(first.position, scene)[0], NEAR + rounding)
+
+    def test_lines_end_before_the_camera_s_plane(self):
+        projection = Projection(pt.Camera((0, 0, 0), (0, 0, -1), vertical_fov=np.pi / 2), pt.RenderSettings(20, 10))
+        np.testing.assert_allclose(projection.line(np.array([0, 0, -2.0]), np.array([2, 0, -2.0])), [0.5, 0.5, 0.75, 0.5])
+        self.assertIsNone(projection.line(np.array([0, 0, 1.0]), np.array([1.0, 0, 2.0])))
+        line = projection.line(np.array([0, 1, -1.0]), np.array([0, 1, 1.0]))
+        np.testing.assert_allclose(line[:3], [0.5, 0, 0.5], atol=1e-12)
+        self.assertLess(line[3], -100)
+
+    def test_what_cannot_be_traced_is_refused(self):
+        with self.assertRaisesRegex(ValueError, "is no pixel"):
+            self.tracer.trace(ROOM, CAMERA, SETTINGS, 48, 0, 0)
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name, "kernels")
+            shutil.copytree(ROOT / "shaders", folder)
+            kernel = folder / "pathtrace.comp"
+            kernel.write_text(kernel.read_text().replace("traced_sample(radiance * held.film_scale)", "radiance * held.film_scale"))
+            tracer = Tracer(None, folder)
+            self.addCleanup(tracer.close)
+            with self.assertRaisesRegex(ValueError, "traced_sample"):
+                tracer.trace(ROOM, CAMERA, SETTINGS, 1, 1, 0)
+            (folder / "trace.glsl").unlink()
+            with self.assertRaisesRegex(ValueError, "trace.glsl is missing"):
+                tracer.trace(ROOM, CAMERA, SETTINGS, 1, 1, 0)
+
+    def test_an_edited_kernel_shows_its_own_path(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name, "course")
+            subprocess.run([os.environ["PT_PROGRAM"], "course", folder], check=True)
+            tracer = Tracer(None, folder)
+            self.addCleanup(tracer.close)
+            settings = dataclasses.replace(SETTINGS, estimator=pt.Estimator.UNIFORM, sampler=pt.Sampler.RANDOM)
+            trace = tracer.trace(ROOM, CAMERA, settings, 5, 7, 0)
+            self.assertEqual([vertex.number for vertex in trace.vertices], [1])
+            for difference in ("1-emission", "2-directions", "3-throughput"):
+                subprocess.run(["patch", "-s", "-p1", "-d", folder, "-i", ROOT / f"shaders/coursework/{difference}.diff"], check=True)
+            for x, y, sample in PIXELS:
+                trace = tracer.trace(ROOM, CAMERA, settings, x, y, sample)
+                self.assertEqual([vertex.number for vertex in trace.vertices], [1, 2, 3, 4])
+                self.check_path(trace, ROOM, CAMERA, 1)
+                numbers = [number for vertex in trace.vertices for number in vertex.numbers]
+                self.assertEqual(numbers, course_numbers(settings.width * y + x, sample, self.seed_word(), 6))
+                np.testing.assert_array_equal(trace.radiance, self.film(ROOM, CAMERA, settings, sample, folder)[y, x])
+            kernel = folder / "pathtrace.comp"
+            kernel.write_text(kernel.read_text().replace("(2.0 * PI);", "(4.0 * PI);", 1))
+            with self.assertRaises(AssertionError):
+                self.check_path(tracer.trace(ROOM, CAMERA, settings, 5, 7, 0), ROOM, CAMERA, 1)
+
+    def seed_word(self):
+        """The first word of the library's hash of seed 0, the finalizer of splitmix64."""
+        mask = 2**64 - 1
+        z = 0x9e3779b97f4a7c15
+        z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9 & mask
+        z = (z ^ z >> 27) * 0x94d049bb133111eb & mask
+        return (z ^ z >> 31) & 0xffffffff
+
+
+def pcg(word):
+    state = (word * 747796405 + 2891336453) % 2**32
+    mixed = ((state >> ((state >> 28) + 4)) ^ state) * 277803737 % 2**32
+    return mixed >> 22 ^ mixed
+
+
+def course_numbers(pixel, sample, seed, count):
+    """Numbers of shaders/coursework/start.comp."""
+    of_sample = pcg((sample + pcg((pixel + pcg(seed)) % 2**32)) % 2**32)
+    return [(pcg((dimension + of_sample) % 2**32) >> 8) / 2**24 for dimension in range(1, count + 1)]
+
+
+if __name__ == "__main__":
+    unittest.main()
