@@ -57,7 +57,7 @@ PT_FUNCTION real mean_besides_and_without_largest(ValueSet values, real value)
 }
 
 // Brightness around a pixel, from the median of its neighbors and from its tile. The brightness is at least an eighth
-// of a brighter neighbor , because the mean of its eight neighbors cannot be less.
+// of a brighter neighbor, because the mean of its eight neighbors cannot be less.
 PT_FUNCTION real around(real mean, ValueSet tile, real median_beside, real largest_beside)
 {
     real of_brighter = largest_beside > mean ? 0.125 * largest_beside : 0.0;

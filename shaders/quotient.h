@@ -1,4 +1,4 @@
-// Quotients of exact sums and counts, as the bits of float32. The quotients are computed with integers , because Vulkan
+// Quotients of exact sums and counts, as the bits of float32. The quotients are computed with integers, because Vulkan
 // permits errors of float division and may flush small results to 0.
 #ifndef PT_QUOTIENT_H
 #define PT_QUOTIENT_H

@@ -37,7 +37,7 @@ PT_SPECIALIZED(LAMP_TREE_LEVELS, 25, 0) // levels below the top; 0: no lamp tree
 PT_SPECIALIZED(LAMP_TREE_WORDS, 26, 0)
 PT_SPECIALIZED(OVERLAP, 15, 0)         // 1: several invocations may add to a pixel at once
 PT_SPECIALIZED(TREE, 22, 0)
-PT_SPECIALIZED(TREE_LAMPS, 23, 0)      // lamps in the tree, the last of LAMP_COUNT
+PT_SPECIALIZED(TREE_LAMPS, 23, 0)      // lamps in the tree; they have the last numbers
 PT_SPECIALIZED(TREE_COLORS, 24, 0)     // 1: tree spheres have colors of their own
 PT_SPECIALIZED(TREE_LEVELS, 35, 0)     // most nodes from the root to a sphere
 PT_SPECIALIZED(TREE_INSIDE, 34, 1)     // 1: paths may be inside a sphere of the tree

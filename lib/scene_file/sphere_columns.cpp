@@ -45,7 +45,7 @@ class NpyHeader {
 public:
     NpyHeader(platform::InputFile &file, const std::string &name) : name_(name) {
         constexpr std::size_t version_place = magic.size();
-        constexpr std::size_t longest = 65535; // longest of version 1
+        constexpr std::size_t longest = 65535; // longest header of version 1
         const std::string start(file.first(version_place + 2 + sizeof(std::uint32_t)));
         if (!start.starts_with(magic) || start.size() < version_place + 2)
             refuse("is no NPY file, which begins with \\x93NUMPY: write it by numpy.save");

@@ -20,7 +20,7 @@ typedef struct pt_function_accuracy {
 
 /** Compares the kernel's elementary functions on this context's device with double precision, for fixed inputs.
  *
- * Lists an element per function; if rows is NULL, no function is evaluated. Needs no scene. */
+ * Lists an element per function; if rows is NULL, no function is evaluated. Needs no scene. One thread at a time. */
 PT_API pt_result pt_get_accuracy(pt_context *context, pt_function_accuracy *rows, uint32_t *count);
 
 #ifdef __cplusplus

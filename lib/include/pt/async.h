@@ -2,15 +2,7 @@
  * pt: samples in the background, while the program does something else.
  *
  * pt_start begins a pt_accumulate and returns at once, pt_poll continues it, and pt_cancel ends it early. Neither the
- * image's bits nor the number of samples depends on when pt_poll is called.
- *
- *     result = pt_start(context, &info);
- *     while (result == PT_PENDING) {
- *         ... a frame's other work ...
- *         result = pt_poll(context, 4000000, NULL);
- *     }
- *     if (result >= 0)
- *         result = pt_readback(context, &image);
+ * image's bits nor the number of samples depends on when pt_poll is called. lib/examples/moving_camera.c has a loop.
  *
  * - Devices: The library starts no threads. Between calls each device has at most two submissions, and only pt_poll
  *   gives it more. To keep devices busy, let pt_poll wait, or make submissions longer than the time between two polls
@@ -39,8 +31,8 @@ extern "C" {
  * Builds all kernels for the samples (pt_prepare builds most of them ahead). Checks a target error first if the image
  * has a number of samples that pt_next_check returns.
  *
- * PT_PENDING: samples are being taken. PT_TARGET_REACHED: the image already has the target error, and no samples are
- * being taken. Fails as pt_accumulate does. */
+ * One thread at a time. PT_PENDING: samples are being taken. PT_TARGET_REACHED: the image already has the target error,
+ * and no samples are being taken. Fails as pt_accumulate does. */
 PT_API pt_result pt_start(pt_context *context, const pt_accumulate_info *info);
 
 /** Gives the devices more work, and waits for at most this many nanoseconds; with UINT64_MAX until all samples are
@@ -49,10 +41,10 @@ PT_API pt_result pt_start(pt_context *context, const pt_accumulate_info *info);
  * The call may take longer when it checks a target error, which reads the image. pt_poll builds no kernel. fraction may
  * be NULL. Otherwise it receives the finished fraction of the samples, in [0, 1], which never decreases.
  *
- * PT_PENDING: samples are still being taken. PT_OK: all samples are taken. PT_TARGET_REACHED: fewer were enough.
- * PT_CANCELLED: pt_cancel was called; fewer samples are taken, all of them complete. PT_ERROR_INVALID_STATE: no samples
- * are being taken. After any result except PT_PENDING no samples are being taken, unless the call was refused because
- * it was made in a callback or while another thread was in a call. */
+ * One thread at a time. PT_PENDING: samples are still being taken. PT_OK: all samples are taken. PT_TARGET_REACHED:
+ * fewer were enough. PT_CANCELLED: pt_cancel was called; fewer samples are taken, all of them complete.
+ * PT_ERROR_INVALID_STATE: no samples are being taken. After any result except PT_PENDING no samples are being taken,
+ * unless the call was refused because it was made in a callback or while another thread was in a call. */
 PT_API pt_result pt_poll(pt_context *context, uint64_t nanoseconds, double *fraction);
 
 /** Asks for no more samples, and returns at once.

@@ -36,8 +36,7 @@ typedef struct pt_denoise_info {
     const char *library;
 } pt_denoise_info;
 
-/** Denoises an image, and estimates the error of the denoised picture. Open Image Denoise starts threads; on the CPU
- * their number does not change the result.
+/** Denoises an image, and estimates the error of the denoised picture. Open Image Denoise starts threads.
  *
  * The bounds lie 1.96 standard errors below and above the estimate of the squared error, rmse and relative_rmse 1.28
  * above it. If the error comes from fewer than 8 tiles of 8 x 8 pixels, it is uncertain (PT_UNCERTAIN_RMSE,

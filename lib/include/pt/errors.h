@@ -37,7 +37,7 @@ PT_API uint64_t pt_get_broken_rule(const pt_context *context, uint32_t index, pt
 /** Writes a warning about the surface that rounding moves farthest in the image, if it moves by more than a pixel. The
  * warning names the field that causes this, the distance in the image, and a remedy. Without such a surface, or while
  * scene, camera or render settings are missing, all fields after struct_size are 0 or NULL. Strings are valid until the
- * next call on the context. */
+ * next call on the context. One thread at a time. */
 PT_API pt_result pt_get_warning(pt_context *context, pt_broken_rule *warning);
 
 #ifdef __cplusplus

@@ -19,21 +19,20 @@ extern "C" {
  * some hundred more. Otherwise *size_bytes is the size of data, and receives the number of bytes written. Equal samples
  * give equal bytes. Later versions of this library can read the bytes (lib/film/FORMAT.md).
  *
- * PT_ERROR_INVALID_STATE: there is no sample. PT_ERROR_INVALID_ARGUMENT: *size_bytes is too small. After a failure
- * *size_bytes is unchanged, and the contents of data are undefined. */
+ * One thread at a time. PT_ERROR_INVALID_STATE: there is no sample. PT_ERROR_INVALID_ARGUMENT: *size_bytes is too
+ * small. After a failure *size_bytes is unchanged, and the contents of data are undefined. */
 PT_API pt_result pt_save_film(pt_context *context, void *data, uint64_t *size_bytes);
 
 /** Adds a saved film's samples to the context's samples.
  *
  * The context must have the film's scene, camera and render settings, except pt_render.first_sample. Later calls of
- * pt_accumulate take the missing samples from pt_render.first_sample on. With PT_SAMPLER_SOBOL, if samples before the
- * last one are missing, pt_get_error_estimate states 0.76 to 3.7 times the true error.
+ * pt_accumulate take the missing samples from pt_render.first_sample on.
  *
  * The bytes may come from an untrusted source.
  *
- * PT_ERROR_INCOMPATIBLE: the bytes are not a film, are damaged, belong to another picture, or have samples that the
- * context already has. The message has a line for each difference. PT_ERROR_OUT_OF _DEVICE_MEMORY: the device has too
- * little memory for a second copy of the sums. */
+ * One thread at a time. PT_ERROR_INCOMPATIBLE: the bytes are not a film, are damaged, belong to another picture, or
+ * have samples that the context already has. The message has a line for each difference. PT_ERROR_OUT_OF_DEVICE_MEMORY:
+ * the device has too little memory for a second copy of the sums. */
 PT_API pt_result pt_add_film(pt_context *context, const void *data, uint64_t size_bytes);
 
 /* ---- Films without a context ------------------------------------------------------------------------------------ */
@@ -86,12 +85,12 @@ PT_API pt_result pt_open_film(const void *data, uint64_t size_bytes, pt_film **f
 /** Frees a film. NULL is allowed. One thread, after all other calls on the film; never fails. */
 PT_API void pt_close_film(pt_film *film);
 
-/** Adds the samples of another film, given as bytes. The other film may have other pixels of the image.
- * PT_ERROR_INCOMPATIBLE: the bytes are not a film, are damaged, belong to another picture, or have samples that a
+/** Adds the samples of another film, given as bytes. The other film may have other pixels of the image. One thread at a
+ * time. PT_ERROR_INCOMPATIBLE: the bytes are not a film, are damaged, belong to another picture, or have samples that a
  * pixel of the film already has. */
 PT_API pt_result pt_merge_film(pt_film *film, const void *data, uint64_t size_bytes);
 
-/** Writes the bytes of a film. data, *size_bytes and errors are as for pt_save_film. */
+/** Writes the bytes of a film. data, *size_bytes and errors are as for pt_save_film. One thread at a time. */
 PT_API pt_result pt_write_film(const pt_film *film, void *data, uint64_t *size_bytes);
 
 /** Receives the next bytes of a film. data is valid during the call. Return 0 to go on. Any other value ends
@@ -99,33 +98,33 @@ PT_API pt_result pt_write_film(const pt_film *film, void *data, uint64_t *size_b
 typedef int32_t (*pt_take_bytes_fn)(void *user, const void *data, uint64_t size_bytes);
 
 /** Passes the bytes of pt_write_film to take, in order, in pieces of at most a megabyte. take must not call functions
- * on this film. PT_CANCELLED: take ended the call. */
+ * on this film. One thread at a time. PT_CANCELLED: take ended the call. */
 PT_API pt_result pt_stream_film(const pt_film *film, pt_take_bytes_fn take, void *user);
 
 /** Writes radiance, standard error, sample counts or coverage, with the bits of pt_readback. The whole image is the
  * rectangle of pt_film_info, so pt_image.x and pt_image.y count from the rectangle's corner. Pixels that the film lacks
- * are black, with a standard error of INFINITY. PT_ERROR _INVALID_ARGUMENT: another quantity is read, or coverage that
- * the film lacks. */
+ * are black, with a standard error of INFINITY. One thread at a time. PT_ERROR_INVALID_ARGUMENT: another quantity is
+ * read, or coverage that the film lacks. */
 PT_API pt_result pt_read_film(const pt_film *film, const pt_image *image);
 
-/** Describes a film. */
+/** Describes a film. One thread at a time. */
 PT_API pt_result pt_get_film_info(const pt_film *film, pt_film_info *info);
 
 /** Writes a tile. index must be below pt_film_info.tile_count.
  *
- * Tiles do not overlap. */
+ * One thread at a time. */
 PT_API pt_result pt_get_film_tile(const pt_film *film, uint32_t index, pt_film_tile *tile);
 
-/** Lists the ranges of samples that a tile's pixels have, in ascending order. */
+/** Lists the ranges of samples that a tile's pixels have, in ascending order. One thread at a time. */
 PT_API pt_result pt_get_film_ranges(const pt_film *film, uint32_t tile, pt_sample_range *ranges, uint32_t *count);
 
 /** Writes the numbers of samples: sample_count, max_sample_count, mean_sample_count and rejected_samples, over the
- * rectangle of pt_film_info. All other fields become 0. */
+ * rectangle of pt_film_info. All other fields become 0. One thread at a time. */
 PT_API pt_result pt_get_film_stats(const pt_film *film, pt_stats *stats);
 
-/** Estimates the error of a film's image, as pt_get_error_estimate does for a context. The last bits may differ. A film
- * does not have the scene's lamps. So PT_UNCERTAIN_UNMET is set whenever the estimator finds lamps by chance (uniform,
- * cosine, bsdf) and max_path_length is above 1. */
+/** Estimates the error of a film's image, as pt_get_error_estimate does for a context. A film does not have the scene's
+ * lamps. So PT_UNCERTAIN_UNMET is set whenever the estimator finds lamps by chance (uniform, cosine, bsdf) and
+ * max_path_length is above 1. One thread at a time. */
 PT_API pt_result pt_get_film_error_estimate(const pt_film *film, pt_error_estimate *error);
 
 /** Decides which samples a film needs next to reach a target error, as pt_accumulate does with PT_SAMPLING_ADAPTIVE.
@@ -144,7 +143,7 @@ PT_API pt_result pt_get_film_error_estimate(const pt_film *film, pt_error_estima
  * PT_PENDING: some tiles need more samples. PT_TARGET_REACHED: the film has the target error. PT_OK: the film does not
  * have the target error, but all tiles that need more samples already have `most`.
  *
- * PT_ERROR_INCOMPATIBLE: the film's tiles do not consist of such squares. */
+ * One thread at a time. PT_ERROR_INCOMPATIBLE: the film's tiles do not consist of such squares. */
 PT_API pt_result pt_plan_film(pt_film *film, double target_error, uint32_t most, uint32_t *goals, uint32_t *count);
 
 #ifdef __cplusplus

@@ -17,8 +17,7 @@ extern "C" {
  * pt_reload_shaders or pt_destroy on the context, also while samples are being taken (pt/async.h). Any thread may read
  * them.
  *
- * Fails as pt_readback does. After a failure *data and *size_bytes are unchanged.
- */
+ * One thread at a time. Fails as pt_readback does. After a failure *data and *size_bytes are unchanged. */
 PT_API pt_result pt_map_image(pt_context *context, const pt_image *image, void **data, uint64_t *size_bytes);
 
 #ifdef __cplusplus

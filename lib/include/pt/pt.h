@@ -22,11 +22,10 @@
  *   of the headers gives PT_ERROR_INVALID_ARGUMENT. A driver's failure gives PT_ERROR_SHADER,
  *   PT_ERROR_OUT_OF_DEVICE_MEMORY or PT_ERROR_DEVICE_LOST. A call that needs a scene, camera or render settings returns
  *   PT_ERROR_INVALID_STATE if they are missing. Comments of functions list only further errors and causes.
- * - Threads: Different contexts are independent. Only one thread at a time may use a context or a film, unless the
- *   function's comment says more. While one thread is in a call, calls of other threads on the same context return
- *   PT_ERROR_INVALID_STATE, except pt_cancel (pt/async.h). The library starts no threads (drivers do), prints nothing
- *   and has no globals. The library reads no files outside pt_create_info.shader_dir. On Mesa's lavapipe, calls need
- *   less than 256 KiB of stack.
+ * - Threads: Different contexts are independent. Only one thread at a time may use a context or a film. While one
+ *   thread is in a call, calls of other threads on the same context return PT_ERROR_INVALID_STATE, except pt_cancel
+ *   (pt/async.h). The library starts no threads (drivers do), prints nothing and has no globals. The library reads no
+ *   files outside pt_create_info.shader_dir. On Mesa's lavapipe, calls need less than 256 KiB of stack.
  * - Processes: A forked child may create its own contexts. Its calls on the parent's contexts return
  *   PT_ERROR_INVALID_STATE, and its pt_destroy does not touch them, because the child lacks the driver's threads.
  * - Callbacks: A callback runs inside the call, on the calling thread, and must not throw. The calls that it makes on
@@ -91,8 +90,8 @@ typedef int32_t (*pt_progress_fn)(void *user, double fraction);
  *
  *     f(wi, wo) = diffuse / pi + specular * (n + 2) / (2 pi) * max(0, dot(wo, reflect(wi)))^n,   n = glossiness.
  *
- * For n = 0, 0^0 counts as 0. Color components lie in [0, 1e18]. If diffuse + specular exceeds 1, the surface may
- * reflect more light than it receives. */
+ * Color components lie in [0, 1e18]. If diffuse + specular exceeds 1, the surface may reflect more light than it
+ * receives. */
 typedef struct pt_material {
     float diffuse[3];  /**< fraction of light reflected diffusely */
     float specular[3]; /**< weight of the lobe about the mirror direction */
@@ -104,15 +103,14 @@ typedef struct pt_material {
 /** Bits of pt_material.flags. */
 enum {
     /** camera rays pass through surfaces of this material. All other rays hit them. Hidden spheres should be few,
-     * because they are outside the tree (PT_FEATURE_TREE) and every ray tests each of them. Merged surfaces (pt_sphere)
-     * have the flag of the first one. */
+     * because they are outside the tree (PT_FEATURE_TREE) and every ray tests each of them. */
     PT_MATERIAL_HIDDEN_FROM_CAMERA = 1
 };
 
 /** A ball. Its surface is visible, lit and emitting on both sides. The center at time t is center + t * motion.
  *
- * Spheres that float32 cannot separate, as seen from the camera, are merged into the first one in the scene. The same
- * holds for planes. Two spheres are merged if
+ * Spheres that float32 cannot separate, as seen from the camera, are merged into the first one in the scene. So are
+ * planes. Two spheres are merged if
  * - their radii differ by less than 2^-18 of the radius, and
  * - their centers differ by less than 2^-18 of the radius plus 2^-21 of the distance, and by less than a quarter of the
  *   radius.
@@ -223,8 +221,7 @@ typedef struct pt_camera {
      * pt_accumulate returns PT_ERROR_UNSUPPORTED. Perspective: 0. */
     double vertical_extent;
     /** Perspective: diameter of a thin lens about position, perpendicular to the viewing direction, at most 2 * focus;
-     * 0: a pinhole. At depth z, a pixel's rays spread over a disc of the diameter aperture * |z / focus - 1|.
-     * Orthographic: 0. */
+     * 0: a pinhole. Orthographic: 0. */
     double aperture;
     /** Perspective with an aperture: depth of the plane in focus along the viewing direction; default the distance of
      * target. Orthographic: 0. */
@@ -328,8 +325,7 @@ enum {
     PT_QUANTITY_RADIANCE = 0, /**< mean of the samples */
     /** standard error of the mean, from the difference between the means of two parts of the samples. The number of
      * samples in the first part is the largest power of two below the whole number. Up to 8 samples the value is
-     * INFINITY. The estimate has one degree of freedom, so a quarter of all values are below a third of the true
-     * error. */
+     * INFINITY. */
     PT_QUANTITY_STANDARD_ERROR = 1,
     PT_QUANTITY_SAMPLE_COUNT = 2, /**< number of the pixel's samples, the same in all channels */
     /* The next four describe the first hits of camera rays in the present scene. These quantities need no samples, and
@@ -464,17 +460,17 @@ PT_API void pt_destroy(pt_context *context);
  *
  * The three setters may be called in any order and repeatedly.
  *
- * PT_CANCELLED: pt_scene .progress asked to stop. PT_ERROR_INVALID_SCENE: the scene breaks a rule. The message has a
- * line for each of the first eight broken rules and the number of the others. */
+ * One thread at a time. PT_CANCELLED: pt_scene.progress asked to stop. PT_ERROR_INVALID_SCENE: the scene breaks a rule.
+ * The message has a line for each of the first eight broken rules and the number of the others. */
 PT_API pt_result pt_set_scene(pt_context *context, const pt_scene *scene);
 
-/** Copies a camera into the context and discards the samples. */
+/** Copies a camera into the context and discards the samples. One thread at a time. */
 PT_API pt_result pt_set_camera(pt_context *context, const pt_camera *camera);
 
 /** Copies render settings into the context and discards the samples.
  *
- * Allocates 112 bytes a pixel on the device. PT_ERROR_UNSUPPORTED: the device has no buffers of that size. Render fewer
- * rows at a time in this case, and also after PT_ERROR_OUT_OF_DEVICE_MEMORY. */
+ * Allocates 112 bytes a pixel on the device. One thread at a time. PT_ERROR_UNSUPPORTED: the device has no buffers of
+ * that size. Render fewer rows at a time in this case, and also after PT_ERROR_OUT_OF_DEVICE_MEMORY. */
 PT_API pt_result pt_set_render(pt_context *context, const pt_render *render);
 
 /** Builds the kernels for the present scene, camera and render settings ahead of pt_accumulate.
@@ -482,7 +478,7 @@ PT_API pt_result pt_set_render(pt_context *context, const pt_render *render);
  * A kernel depends on the kinds and numbers of surfaces, and on which side of them the camera is, but not on their
  * positions. The samples stay.
  *
- * PT_ERROR_UNSUPPORTED: the scene exceeds the device's limits. */
+ * One thread at a time. PT_ERROR_UNSUPPORTED: the scene exceeds the device's limits. */
 PT_API pt_result pt_prepare(pt_context *context);
 
 /** Adds samples, and returns when they are taken.
@@ -490,15 +486,16 @@ PT_API pt_result pt_prepare(pt_context *context);
  * The bits of the sum do not depend on how samples are split over calls. Samples more than 2^20 times as bright as the
  * brightest emission are left out and counted (pt_stats.rejected_samples).
  *
- * PT_CANCELLED and PT_TARGET_REACHED: fewer samples were taken, all of them complete. PT_ERROR_UNSUPPORTED: the scene
- * exceeds the device's limits. After a failure complete samples are kept, and pt_stats.sample_count is their number.
- * The number is 0 if several devices had begun samples that they could not complete. */
+ * One thread at a time. PT_CANCELLED and PT_TARGET_REACHED: fewer samples were taken, all of them complete.
+ * PT_ERROR_UNSUPPORTED: the scene exceeds the device's limits. After a failure complete samples are kept, and
+ * pt_stats.sample_count is their number. The number is 0 if several devices had begun samples that they could not
+ * complete. */
 PT_API pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *info);
 
 /** Writes a quantity of all pixels or of a rectangle.
  *
- * After a failure the contents of image->data are undefined. PT_ERROR_INVALID_STATE: there is no sample. First hits
- * need no sample and fail as pt_prepare does. PT_ERROR_INVALID_ARGUMENT: coverage is read without
+ * After a failure the contents of image->data are undefined. One thread at a time. PT_ERROR_INVALID_STATE: there is no
+ * sample. First hits need no sample and fail as pt_prepare does. PT_ERROR_INVALID_ARGUMENT: coverage is read without
  * PT_RENDER_COVERAGE. */
 PT_API pt_result pt_readback(pt_context *context, const pt_image *image);
 

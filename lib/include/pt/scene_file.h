@@ -68,20 +68,20 @@ typedef struct pt_rule_source {
  * wrong. PT_ERROR_FILE: a file cannot be read. */
 PT_API pt_result pt_open_scene_file(const pt_scene_file_info *info, pt_scene_file **file);
 
-/** Frees the file and the arrays of its scene. NULL is allowed. */
+/** Frees the file and the arrays of its scene. NULL is allowed. One thread at a time. */
 PT_API void pt_close_scene_file(pt_scene_file *file);
 
 /** Fills the structs that are not NULL with the file's contents. Arrays of the scene are valid until
- * pt_close_scene_file. Fields that the file does not set become 0. */
+ * pt_close_scene_file. Fields that the file does not set become 0. One thread at a time. */
 PT_API pt_result pt_get_scene_file(const pt_scene_file *file, pt_scene *scene, pt_camera *camera, pt_render *render,
                                    pt_scene_film *film);
 
 /** Returns the path of the column file with the given index, or NULL beyond the last one. The scene file owns the
- * string. */
+ * string. One thread at a time. */
 PT_API const char *pt_get_column_path(const pt_scene_file *file, uint32_t index);
 
 /** Finds the value that broke a rule of pt_set_scene, pt_set_camera, pt_set_render or pt_accumulate (pt/errors.h).
- * Parses the file again. */
+ * Parses the file again. One thread at a time. */
 PT_API pt_result pt_find_rule_source(pt_scene_file *file, const pt_broken_rule *rule, pt_rule_source *source);
 
 /** Returns the JSON Schema (draft 7) of scene files, for editors. A static string; NULL if there is no memory. Any

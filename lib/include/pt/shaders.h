@@ -23,9 +23,9 @@ extern "C" {
  * Changed kernels replace the old ones on all devices, and the samples are discarded. If no kernel has changed, or
  * after a failure, kernels and samples stay.
  *
- * PT_ERROR_SHADER: a file is missing or does not compile, or a driver refuses a kernel for the present scene. If there
- * are no samples, only the next pt_accumulate detects the refusal. pt_last_error has the compiler's messages with file
- * and line number. PT_ERROR_INVALID_STATE: there is no shader_dir. */
+ * One thread at a time. PT_ERROR_SHADER: a file is missing or does not compile, or a driver refuses a kernel for the
+ * present scene. If there are no samples, only the next pt_accumulate detects the refusal. pt_last_error has the
+ * compiler's messages with file and line number. PT_ERROR_INVALID_STATE: there is no shader_dir. */
 PT_API pt_result pt_reload_shaders(pt_context *context);
 
 #ifdef __cplusplus

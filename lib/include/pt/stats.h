@@ -84,13 +84,13 @@ typedef struct pt_error_estimate {
  * fails. */
 PT_API uint32_t pt_next_check(uint32_t sample_count);
 
-/** Writes the statistics, also of a lost device. */
+/** Writes the statistics, also of a lost device. One thread at a time. */
 PT_API pt_result pt_get_stats(pt_context *context, pt_stats *stats);
 
 /** Estimates the image's error.
  *
  * The first call after new samples takes about as long as reading the image. Without render settings, or with a lost
- * device, the error is unknown. */
+ * device, the error is unknown. One thread at a time. */
 PT_API pt_result pt_get_error_estimate(pt_context *context, pt_error_estimate *error);
 
 #ifdef __cplusplus

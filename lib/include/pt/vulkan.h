@@ -25,8 +25,7 @@ typedef void (*pt_queue_fn)(void *user);
  * - Threads: The context calls lock_queue and unlock_queue around every vkQueueSubmit, and not around waits or other
  *   callbacks. Without these functions no other thread may use the queue during a call on this context, not even by
  *   vkDeviceWaitIdle.
- * - Order: The context uses only its own buffers and the caller's in pt_readback_to_buffer. Its pipeline barriers may
- *   delay other commands in the queue, but never change their results.
+ * - Order: The context uses only its own buffers and the caller's in pt_readback_to_buffer.
  * - Time: Earlier work in the queue must not wait for the calling thread. The time of a submission includes the wait
  *   for earlier work, so later submissions get smaller. If a submission has not ended after 10 seconds, the device
  *   counts as lost.
@@ -87,7 +86,8 @@ typedef struct pt_buffer_image {
  * After a call with signal_semaphore, the next pt_readback_to_buffer fails instead and writes nothing. After other
  * failures, buffer and semaphores are unchanged unless the device was lost.
  *
- * PT_ERROR_INVALID_STATE: the context was created without pt_create_info.vulkan, or there is no sample. */
+ * One thread at a time. PT_ERROR_INVALID_STATE: the context was created without pt_create_info.vulkan, or there is no
+ * sample. */
 PT_API pt_result pt_readback_to_buffer(pt_context *context, const pt_buffer_image *image);
 
 #ifdef __cplusplus
