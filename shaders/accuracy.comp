@@ -1,4 +1,4 @@
-// Evaluates elementary functions for pt_get_accuracy. Each invocation has one function and one argument.
+// Evaluates elementary functions for pt_get_accuracy.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 

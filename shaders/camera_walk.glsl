@@ -1,4 +1,3 @@
-// Finds the first hit of a camera ray.
 #ifndef CAMERA_WALK_GLSL
 #define CAMERA_WALK_GLSL
 

@@ -331,7 +331,7 @@ struct AddConstants {
 };
 
 #ifdef __cplusplus
-// Vulkan guarantees 128 bytes of push constants. GLSL uses std430 offsets.
+// Vulkan guarantees 128 bytes of push constants.
 static_assert(sizeof(CameraView) == 64 && offsetof(CameraView, start_scale) == 12 && offsetof(CameraView, up) == 16);
 static_assert(offsetof(CameraView, forward) == 32 && offsetof(CameraView, height) == 44);
 static_assert(offsetof(CameraView, lens_radius) == 48 && offsetof(CameraView, lens_blur) == 52);

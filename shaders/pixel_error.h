@@ -64,9 +64,7 @@ PT_FUNCTION real around(real mean, ValueSet tile, real median_beside, real large
     return more_of(more_of(median_beside, of_brighter), mean_besides_and_without_largest(tile, mean));
 }
 
-// Relative squared errors are divided by the square of the pixel's estimated limit. A bright sample that causes a large
-// error must not also raise this estimate. So the limit is the pixel's mean or, if less, the larger of the darker
-// part's mean and the brightness around.
+// The estimated limit of a pixel, by whose square relative squared errors are divided (shaders/README.md, section 11).
 //
 // At an edge the surroundings are bright, but at least half of the samples are dark. Let samples have the value M with
 // probability p, otherwise 0, and let exactly one of N samples have had the value M. Then the mean is T = M / N, the
@@ -110,9 +108,9 @@ PT_FUNCTION real square_as_lamp(real standard_error, real mean, real offset_squa
     return square_of_quotient(standard_error, squared(mean) + offset_square);
 }
 
-// A pixel that stands out shows a lamp or highlight, which many samples hit, or one rare bright sample. If samples of
-// only one part hit the light ("met once"), both explanations remain. lib/film/error_estimate.cpp compares the number
-// of such pixels with the number where samples of both parts hit it ("met again").
+// A pixel that stands out shows a lamp or highlight, or one rare bright sample. lib/film/error_estimate.cpp compares
+// the number of such pixels whose light samples of only one part hit ("met once") with the number where both parts did
+// ("met again").
 PT_FUNCTION bool is_met_once(real standard_error, real mean, real lesser)
 {
     return lesser <= 0.02 * mean && standard_error >= OF_HALVES * (mean - lesser);

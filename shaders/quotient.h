@@ -1,5 +1,5 @@
-// Quotients of exact sums and counts, as the bits of float32. The quotients are computed with integers, because Vulkan
-// permits errors of float division and may flush small results to 0.
+// Quotients of exact sums and counts, as the bits of float32. Computed with integers, because Vulkan permits errors of
+// float division.
 #ifndef PT_QUOTIENT_H
 #define PT_QUOTIENT_H
 

@@ -1,4 +1,4 @@
-// The pixel of an invocation. Each workgroup has one tile of the list.
+// Each workgroup has one tile of the list.
 #ifndef TILE_PIXEL_GLSL
 #define TILE_PIXEL_GLSL
 

@@ -1,6 +1,6 @@
-// Hooks through which a kernel tells `pt view` the path of a sample. Without TRACE_PIXEL they are nothing. `pt view`
-// compiles the kernel again with the index of a pixel as TRACE_PIXEL. Then all invocations take the same sample of this
-// pixel, and each writes a piece of the record into its own pixel of the film.
+// Hooks that pass the path of a sample to `pt view`. Without TRACE_PIXEL they do nothing. `pt view` compiles the kernel
+// with the index of a pixel as TRACE_PIXEL. All invocations then take the same sample of this pixel, and each stores
+// half a record as its own pixel of the film.
 #ifndef TRACE_GLSL
 #define TRACE_GLSL
 
@@ -10,12 +10,12 @@
 
 const uint TRACED_HEADER = 1u; // number of records, distance from the camera to the origin of positions
 const uint TRACED_NUMBER = 2u;
-const uint TRACED_WORDS = 3u; // numbers in units of 2^-32, and how many
+const uint TRACED_WORDS = 3u; // random numbers in units of 2^-32, and their count
 const uint TRACED_VERTEX = 4u;
 const uint TRACED_THROUGHPUT = 5u;
-const uint TRACED_RADIANCE = 6u; // in film units
+const uint TRACED_RADIANCE = 6u; // radiance in film units
 
-uint trace_piece; // of this invocation: two for each record
+uint trace_piece; // index of this invocation
 uint trace_count = 1u;
 uvec4 trace_kept = uvec4(0u);
 float trace_origin;
@@ -27,7 +27,7 @@ void trace_record(uint kind, uvec3 words)
     ++trace_count;
 }
 
-// number counts the vertices of the path from 1. throughput is what the path has before this vertex reflects.
+// number counts the path's vertices from 1. throughput does not include the reflection at this vertex.
 void trace_vertex(uint number, vec3 position, vec3 throughput)
 {
     trace_record(TRACED_VERTEX, floatBitsToUint(position));
@@ -54,7 +54,8 @@ uint traced_pixel(uint index, CameraView camera)
     return TRACE_PIXEL;
 }
 
-// Returns what the film gets for the sample's value. A float holds 24 bits exactly.
+// Returns the value that the film gets in place of the sample's. A record takes two pixels, because a float has 24
+// exact bits.
 vec3 traced_sample(vec3 value)
 {
     trace_record(TRACED_RADIANCE, floatBitsToUint(value));

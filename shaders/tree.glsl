@@ -1,4 +1,3 @@
-// The tree buffer (layout: gpu_layout.h).
 #ifndef TREE_GLSL
 #define TREE_GLSL
 
