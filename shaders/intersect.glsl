@@ -1,4 +1,3 @@
-// Intersects rays with the surfaces outside the tree.
 #ifndef INTERSECT_GLSL
 #define INTERSECT_GLSL
 

@@ -41,7 +41,7 @@ PT_SPECIALIZED(TREE_LAMPS, 23, 0)      // lamps in the tree; they have the last 
 PT_SPECIALIZED(TREE_COLORS, 24, 0)     // 1: tree spheres have colors of their own
 PT_SPECIALIZED(TREE_LEVELS, 35, 0)     // most nodes from the root to a sphere
 PT_SPECIALIZED(TREE_INSIDE, 34, 1)     // 1: paths may be inside a sphere of the tree
-PT_SPECIALIZED(POINT_BLOCKS, 12, 1024) // size of the point table in blocks
+PT_SPECIALIZED(POINT_BLOCKS, 12, 1024)
 PT_SPECIALIZED(WALK_TRIPS, 27, 0)      // most trips of a step (tree_path.glsl); 0: each walk runs to its end
 PT_SPECIALIZED(SPOT_COUNT, 28, 0)
 // Surfaces hidden from the camera: the last lamps outside the tree, the first skies, the last other spheres, the first
