@@ -8,7 +8,7 @@ struct Vertex {
     vec3 normal; // unit, on the path's side
     vec3 mirror; // unit direction of mirror reflection
     uint surface;
-    bool inside; // inside the sphere, or behind the plane's normal
+    bool inside; // inside the sphere, or below the plane
 };
 
 struct Arrival {

@@ -259,7 +259,7 @@ pt_result pt_poll(pt_context *context, uint64_t nanoseconds, double *fraction) {
     });
 }
 
-// Another thread may be in a call, so this uses only in_use and the renderer's Cancellation.
+// Another thread may be in a call, so this uses only in_use and Cancellation.
 pt_result pt_cancel(pt_context *context) {
     if (!context)
         return pt::guard(pt::thread_last_error, [] { pt::require_not_null(nullptr, "context"); });

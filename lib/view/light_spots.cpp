@@ -10,7 +10,7 @@ namespace pt {
 
 namespace {
 
-// A glow is worth a ray if the plane is bright, and the lamp is near the plane without touching it. The limits are
+// A glow is worth a ray if the plane is bright, and the lamp is near the plane without covering it. The limits are
 // empirical.
 constexpr double largest_glow_height = 0.2; // a fraction of the farthest plane's height
 constexpr double least_glow_height = 1.5;   // multiple of the lamp's radius

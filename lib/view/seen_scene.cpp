@@ -10,8 +10,8 @@ namespace pt {
 
 namespace {
 
-// Spheres with a larger ratio of radius to distance are nearly flat. Below it, a hit loses at most 5 of float32's 24
-// bits.
+// Spheres with a larger ratio of radius to distance are nearly flat. Below this ratio, a hit loses at most 5 of
+// float32's 24 bits.
 constexpr double nearly_flat = 32.0;
 
 // The ratio for lamps is larger, because curved planes cannot be sampled as lamps. At this ratio the error of the

@@ -141,8 +141,8 @@ void add_pieces(std::vector<LampPiece> &pieces, std::size_t first, Disc disc, in
     }
 }
 
-// A moving lamp counts at several times of the shutter. If it moves by more than a pixel between two of them, each also
-// stands for the pixels between.
+// A moving lamp counts at several times while the shutter is open. If it moves by more than a pixel between two of
+// them, each also stands for the pixels between.
 void add_lamp(std::vector<LampPiece> &pieces, const PreparedScene &scene, const Camera &camera, const Window &window,
               const SeenSphere &lamp, const glm::dvec3 &emission) {
     constexpr double most_moments = 64.0;
@@ -208,7 +208,7 @@ struct UnmetPiece {
     double hits;
     double square;
     double relative_square;
-    double lack; // expected squares of pixels if no sample hits
+    double lack; // squared error if no sample hits
     double relative_lack;
 };
 

@@ -324,8 +324,8 @@ typedef struct pt_accumulate_info {
 enum {
     PT_QUANTITY_RADIANCE = 0, /**< mean of the samples */
     /** standard error of the mean, from the difference between the means of two parts of the samples. The number of
-     * samples in the first part is the largest power of two below the whole number. Up to 8 samples the value is
-     * INFINITY. */
+     * samples in the first part is the largest power of two below the number of all samples. Up to 8 samples the value
+     * is INFINITY. */
     PT_QUANTITY_STANDARD_ERROR = 1,
     PT_QUANTITY_SAMPLE_COUNT = 2, /**< number of the pixel's samples, the same in all channels */
     /* The next four describe the first hits of camera rays in the present scene. These quantities need no samples, and
