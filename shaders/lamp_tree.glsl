@@ -11,7 +11,7 @@ const bool HAS_LAMP_TREE = LAMP_TREE_LEVELS > 0u;
 struct Siblings {
     vec4 x, y, z;
     vec4 power;  // 0: no node
-    vec4 spread; // a lamp's is its radius
+    vec4 spread; // radius in the case of a lamp
 };
 
 Siblings siblings_of(uint group, Vertex vertex, float time)

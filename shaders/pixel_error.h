@@ -109,8 +109,8 @@ PT_FUNCTION real square_as_lamp(real standard_error, real mean, real offset_squa
 }
 
 // A pixel that stands out shows a lamp or highlight, or one rare bright sample. lib/film/error_estimate.cpp compares
-// the number of such pixels whose light samples of only one part hit ("met once") with the number where both parts did
-// ("met again").
+// two numbers of such pixels: samples of only one part hit the light ("met once"), or samples of both parts did ("met
+// again").
 PT_FUNCTION bool is_met_once(real standard_error, real mean, real lesser)
 {
     return lesser <= 0.02 * mean && standard_error >= OF_HALVES * (mean - lesser);

@@ -61,7 +61,7 @@ bool may_miss_lamps(const pt_compared_image &image) {
     return finds_lamps_by_chance(image.estimator, some_length);
 }
 
-// Whether it is evidence that an image is darker. An estimator that finds lamps by chance may have missed light.
+// Whether a darker image is evidence. An estimator that finds lamps by chance may have missed light.
 struct Knowledge {
     bool of_first;
     bool of_second;
@@ -171,7 +171,7 @@ ChannelEvents largest_events(const pt_compare_info &info) {
 struct Difference {
     double z;        // difference in standard deviations
     double event;    // largest event in standard deviations
-    double skewness; // towards the other sign, >= 0
+    double skewness; // skewness towards the other sign, >= 0
 
     // Returns an upper bound for the probability of this difference if the light is equal.
     double probability() const {

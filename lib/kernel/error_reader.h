@@ -30,7 +30,7 @@ public:
     void read(const ErrorQuery &query, const Receive &receive);
 
     // read() in two steps, for films of one strip. record() appends to the commands of a submission. collect() may be
-    // called after it has ended. Only one such submission may be running.
+    // called after the submission has ended. Only one such submission may be running.
     void record(const vk::raii::CommandBuffer &commands, const ErrorQuery &query);
     void collect(const ErrorQuery &query, const Receive &receive) const;
 

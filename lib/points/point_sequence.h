@@ -21,7 +21,7 @@ std::uint32_t radical_inverse(std::uint64_t index, std::uint32_t dimension);
 
 // The blocks of a row of the point table (row_blocks() in gpu_layout.h).
 struct PointLayout {
-    std::vector<std::uint32_t> block_dimensions; // of the shared blocks, then of the blocks of a branch
+    std::vector<std::uint32_t> block_dimensions; // dimensions of the shared blocks, then of a branch
     std::uint32_t shared_blocks;
     std::uint32_t branches;
 

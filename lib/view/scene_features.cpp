@@ -64,8 +64,7 @@ std::uint32_t rounded_up(std::uint32_t levels) {
     return (levels + step - 1) / step * step;
 }
 
-// Loops to sum and to choose or, with a tree, over the top groups, to the chosen lamp, and to the lamp that a direction
-// hits.
+// There are two loops over the lamps or, with a tree, one over the top groups and two down the levels.
 std::uint64_t lamp_trips(const Features &features) {
     return features[gpu::ID_LAMP_TREE_LEVELS] ? gpu::LAMP_TREE_TOP_GROUPS + 2 * features[gpu::ID_LAMP_TREE_LEVELS]
                                               : 2 * std::uint64_t{features[gpu::ID_LAMP_COUNT]};

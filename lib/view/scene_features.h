@@ -15,7 +15,7 @@
 namespace pt {
 
 struct Features {
-    // By gpu::ID_*. Constants that depend on the device are set later.
+    // Indexed by gpu::ID_*. Constants that depend on the device are set later.
     std::array<std::uint32_t, gpu::CONSTANT_COUNT> constants{};
     std::uint32_t most_branches = 0; // branches at a path's first vertex
     std::uint32_t table_materials = 0;
