@@ -49,8 +49,8 @@ PT_API pt_result pt_poll(pt_context *context, uint64_t nanoseconds, double *frac
 
 /** Asks for no more samples, and returns at once.
  *
- * After pt_start, call pt_poll until it does not return PT_PENDING: it completes the current sample of all pixels. A
- * running pt_accumulate ends as if pt_progress_fn had asked to stop, with PT_CANCELLED, or with PT_OK if all samples
+ * After pt_start, call pt_poll until it does not return PT_PENDING. pt_poll completes the current sample of all pixels.
+ * A running pt_accumulate ends as if pt_progress_fn had asked to stop, with PT_CANCELLED, or with PT_OK if all samples
  * had begun.
  *
  * Any thread, at any time before pt_destroy, also in callbacks and while another thread is in a call on the context.

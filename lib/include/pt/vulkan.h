@@ -18,8 +18,8 @@ typedef void (*pt_queue_fn)(void *user);
  *
  * - Needed: Instance and device come from the Vulkan loader that this library is linked to (libvulkan.so.1).
  *   VkApplicationInfo.apiVersion of the instance is 1.2 or higher, and the physical device supports Vulkan 1.2.
- *   VK_KHR_portability_subset is enabled if the device has it. The device was created from one physical device, not
- *   from a group. The queue's family has VK_QUEUE_COMPUTE_BIT.
+ *   VK_KHR_portability_subset is enabled if the device has it. No feature is needed. The device was created from one
+ *   physical device, not from a group. The queue's family has VK_QUEUE_COMPUTE_BIT.
  * - Lifetime: All handles must outlive the context, which destroys none of them. The context destroys its own objects
  *   in pt_destroy or earlier, without allocation callbacks.
  * - Threads: The context calls lock_queue and unlock_queue around every vkQueueSubmit, and not around waits or other
@@ -48,7 +48,7 @@ struct pt_vulkan {
     void *queue_user;         /**< argument of both functions */
 };
 
-/** A buffer of the caller's device into which a kernel writes an image or a rectangle of it.
+/** A buffer of the caller's device into which a kernel writes an image.
  *
  * - Memory: The buffer has VK_BUFFER_USAGE_STORAGE_BUFFER_BIT and memory of any type. It belongs to pt_vulkan's queue
  *   family unless it is VK_SHARING_MODE_CONCURRENT.
