@@ -28,7 +28,7 @@ public:
         done_ = 0.0;
     }
 
-    // Adds finished work. Reports after a number of elements.
+    // Adds finished work. Reports after elements_between_calls elements.
     void add(double work, std::size_t elements) {
         done_ += work;
         untold_ += elements;

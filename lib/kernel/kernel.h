@@ -40,7 +40,7 @@ public:
 
     void build(TracePipelines &pipelines) const;
 
-    // Makes drivers compile that do so only at the first dispatch. No work may be running.
+    // Forces drivers to compile that do so only at the first dispatch. No work may be running.
     void dispatch_nothing();
 
     std::uint32_t max_samples() const { return max_dispatch_samples_ * (max_tables - 1); }
