@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import ctypes.util
 import functools
 import inspect
 import math
@@ -12,9 +13,11 @@ import numpy.typing as npt
 
 from pt._camera import RenderSettings
 from pt._context import Context
+from pt._denoise import find_library
 from pt._display import automatic_exposure, encode_png, linear, to_pixels
 from pt._exr import encode_exr
 from pt._files import PICTURES, Path, format_of, write_atomically
+from pt._film import TILE_SIDE
 from pt._fit import Array, Doubles, chunks
 from pt._image import Image
 from pt._scene import Scene, SphereArray
@@ -27,8 +30,9 @@ from pt.figures._files import encode_jpeg, write_scene
 from pt.figures._framing import drawn_cell, far_away, narrow_note
 from pt.figures._layout import Balls, Layout, View
 from pt.figures._legend import raster, save
+from pt.figures._noise import Noise, squares_of, until_invisible
 from pt.figures._options import Options, described
-from pt.figures._overlay import PER_SIDE, Overlaid, Shares, line_width, pixels_per_length, rays_per_side, read_shares
+from pt.figures._overlay import Overlaid, Shares, line_width, pixels_per_length, rays_per_side, read_shares
 from pt.figures._particles import Particles
 from pt.figures._radii import opacities_of, radii_of
 from pt.figures._rods import Rods, cell_corners, cell_edges, vectors_of
@@ -220,25 +224,38 @@ class Staged:
         format = format_of(path, LEGENDS)
         write_atomically(path, lambda file: save(self.drawn.legend, file, format))
 
+    def _can_denoise(self) -> bool:
+        if find_library() or ctypes.util.find_library("OpenImageDenoise"):
+            return True
+        self.notes.append("the draft is noisy: Open Image Denoise, by pip install pyoidn (88 MB), would remove the noise")
+        return False
+
     def draw(self, context: Context) -> Figure:
-        camera, scene, lamps = self.layout.camera, self.scene, self.layout.stage.lamps
-        options = self.options
+        camera, scene, options = self.layout.camera, self.scene, self.options
+        lamps, count = self.layout.stage.lamps, sum(map(len, scene.sphere_arrays))
         settings = RenderSettings(*self.layout.size, max_path_length=options.max_path_length, seed=options.seed)
-        image = context.render(scene, camera, settings, options.most_samples, target_error=options.error or 0.0,
-                               progress=options.progress, denoise=options.denoise)
-        count = sum(map(len, scene.sphere_arrays))
         overlaid = Overlaid(len(lamps), count, self.drawn.all_radii, options.outlines)
-        per_side = PER_SIDE
+        context.set_scene(scene)
+        context.set_camera(camera)
+        shares = read_shares(context, camera, settings, overlaid)
+        stage: Any = SURROUND_BRIGHTNESS if len(lamps) > 1 else 1.0
+        denoise = options.denoise or options.draft and self._can_denoise()
+        if options.stops_by_noise:
+            show = functools.partial(_sixteen_bits, options, stage, shares)
+            image = until_invisible(context, scene, camera, settings, show, shares.shapes > 0.0, options.progress)
+        else:
+            image = context.render(scene, camera, settings, options.most_samples, target_error=options.error or 0.0,
+                                   progress=options.progress, denoise=denoise)
         if self.drawn.opacities is not None:
             per_side = rays_per_side(image.stats.mean_sample_count, settings.width * settings.height)
-        shares = read_shares(context, camera, settings, overlaid, per_side)
+            shares = read_shares(context, camera, settings, overlaid, per_side)
         if not shares.shapes.any():
             self.notes.append("the picture is blank: no ball is in view")
-        stage: Any = SURROUND_BRIGHTNESS if len(lamps) > 1 else 1.0
         if scene.planes:
-            bare = Scene(lamps, scene.planes)
-            stage = context.render(bare, camera, settings, math.ceil(image.stats.mean_sample_count),
-                                   denoise=options.denoise).radiance
+            context.set_scene(Scene(lamps, scene.planes))
+            context.set_render(settings)
+            context.accumulate_tiles(image.sample_count[::TILE_SIDE, ::TILE_SIDE])
+            stage = context.readback()
         return Figure(image, self, stage, shares)
 
 
@@ -248,6 +265,7 @@ class Figure(Image):
     scene      scene with camera and settings
     legend     meaning of the colors, or None
     notes      sentences on choices made from the data, and on what is not shown
+    noise      of the picture; None if the image is denoised
     """
 
     def __init__(self, image: Image, staged: Staged, stage: Any, shares: Shares) -> None:
@@ -256,6 +274,18 @@ class Figure(Image):
         self.scene, self.camera = staged.scene, staged.layout.camera
         self.legend, self.notes = staged.drawn.legend, list(staged.notes)
         self._staged, self._stage, self._shares = staged, stage, shares
+
+    @functools.cached_property
+    def noise(self) -> Noise | None:
+        if self.raw is not None:
+            return None
+        if not np.isfinite(self.standard_error).all():
+            return Noise(math.inf, 0.0, math.inf)
+        show = functools.partial(_sixteen_bits, self._staged.options, self._stage, self._shares)
+        return Noise.of(squares_of(show, self.radiance, self.standard_error)[self._shares.shapes > 0.0])
+
+    def __repr__(self) -> str:
+        return super().__repr__()[:-1] + (f", {self.noise}>" if self.noise else ">")
 
     @property
     def picture_size(self) -> tuple[int, int]:
@@ -275,11 +305,7 @@ class Figure(Image):
         exposure = automatic_exposure(self.radiance) if exposure is None else exposure
         options = self._staged.options
         background, ink = _background(options.background)
-        light, alpha = compose(self.radiance, self._stage, self._shares, exposure)
-        if background is None:
-            pixels = to_pixels(light, 0.0, dtype, alpha=alpha, **display)
-        else:
-            pixels = to_pixels(lay_over(light, alpha, linear(background)), 0.0, dtype, **display)
+        pixels = _pixels(self.radiance, self._stage, self._shares, exposure, background, dtype, **display)
         if options.colorbar and self.legend is not None:
             strip = self._strip(len(pixels), background, ink)
             pixels = np.hstack([pixels, np.floor(np.iinfo(dtype).max * strip + 0.5).astype(dtype)])
@@ -338,6 +364,21 @@ def _background(background: Any) -> tuple[Doubles | None, str]:
     color = (255, 255, 255) if isinstance(background, str) and background == "white" else srgb("background", background)
     signal = np.array(color) / 255.0
     return signal, INK if linear(signal) @ (0.2126, 0.7152, 0.0722) > 0.18 else "#dddddd"
+
+
+def _pixels(radiance: Array, stage: Any, shares: Shares, exposure: float, background: Doubles | None, dtype: Any, **display: Any
+            ) -> npt.NDArray[Any]:
+    light, alpha = compose(radiance, stage, shares, exposure)
+    if background is None:
+        return to_pixels(light, 0.0, dtype, alpha=alpha, **display)
+    return to_pixels(lay_over(light, alpha, linear(background)), 0.0, dtype, **display)
+
+
+def _sixteen_bits(options: Options, stage: Any, shares: Shares, radiance: Array) -> npt.NDArray[Any]:
+    """The picture of 16 bits. A transparent one lies over white."""
+    exposure = automatic_exposure(radiance) if options.exposure is None else options.exposure
+    background, _ = _background(options.background)
+    return _pixels(radiance, stage, shares, exposure, np.ones(3) if background is None else background, np.uint16)
 
 
 def _strip_width(words: Doubles, height: int) -> int:

@@ -24,6 +24,7 @@ Columns: TypeAlias = "Mapping[str, str] | str | None"
 
 VIEWS: Final = ("three-quarter", "front", "back", "left", "right", "top", "bottom")
 SAMPLES: Final = 128
+DRAFT_SAMPLES: Final = 8
 MOST_SAMPLES: Final = 65536
 
 
@@ -132,7 +133,8 @@ class Options:
     exposure: float | None = _look(0.0, "EV", "brightness of the balls in stops; auto (in Python None) as in pt render",
                                    read=_stops, rule=(lambda stops: -64.0 <= stops <= 64.0, "from -64 to 64"))
 
-    samples: int | None = _samples(None, "N", f"samples of a pixel. Default: {SAMPLES}, and at most {MOST_SAMPLES} with an error",
+    samples: int | None = _samples(None, "N", "samples of a pixel. Default: as many as make the noise of the particles "
+                                   "invisible, 1.5 steps of 255 at most; at most 65536 with an error, 128 to denoise, 8 for a draft",
                                    flag="--spp", read=int,
                                    rule=(lambda count: 1 <= count < 2**32, "at least 1 and below 2^32"))
     error: float | None = _samples(None, "E", "stops when the image's relative error is at most this: 0.02 or, on the command "
@@ -140,6 +142,7 @@ class Options:
                                    rule=(lambda share: 0.0 < share < math.inf, "> 0 and finite"))
     denoise: bool = _samples(False, "", "denoises the image and states the error of the result. Needs Open Image Denoise (the extra "
                              "denoise)")
+    draft: bool = _samples(False, "", "a quick picture of few samples, denoised if Open Image Denoise is installed")
     seed: int = _samples(0, "N", "seed of the random numbers", read=int,
                          rule=(lambda seed: 0 <= seed < 2**64, "at least 0 and below 2^64"))
     max_path_length: int = _python(4, "", "as in RenderSettings")
@@ -176,7 +179,11 @@ class Options:
 
     @property
     def most_samples(self) -> int:
-        return self.samples or (SAMPLES if self.error is None else MOST_SAMPLES)
+        return self.samples or (MOST_SAMPLES if self.error else DRAFT_SAMPLES if self.draft else SAMPLES)
+
+    @property
+    def stops_by_noise(self) -> bool:
+        return self.samples is None and self.error is None and not (self.denoise or self.draft)
 
 
 def described() -> str:

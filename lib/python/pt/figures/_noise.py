@@ -1,0 +1,116 @@
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Final
+
+import numpy as np
+import numpy.typing as npt
+
+from pt._callbacks import Progress
+from pt._camera import Camera, RenderSettings
+from pt._context import Context
+from pt._film import TILE_SIDE
+from pt._fit import Array, Doubles
+from pt._image import Image
+from pt._scene import Scene
+
+MOST_NOISE: Final = 1.5  # steps of 1/255; by taste
+FIRST_SAMPLES: Final = 16  # the fewest with a stated error
+MOST_SAMPLES: Final = 4096
+WORST: Final = 1.5  # largest noise of a neighbourhood, relative to MOST_NOISE; by taste
+SHARE: Final = 1.03  # of the allowed square, at which a round aims: quasi-random samples do better than random ones
+SEQUENCES: Final = 1.0 / math.sqrt(7.0)  # quasi-random points may have this share of the stated error
+
+Show = Callable[[Array], Array]
+
+
+@dataclass(frozen=True)
+class Noise:
+    """Root mean square error of the mean of 2 x 2 pixels, where particles are, in steps of 1/255 of the display, and its bounds of 95%
+    confidence. The eye hardly resolves single pixels. Their errors are independent, and twice as large."""
+
+    rms: float
+    low: float
+    high: float
+
+    @staticmethod
+    def of(squares: Doubles) -> Noise:
+        """The sum of squares behaves as if it came from (sum of squares)^2 / (sum of their squares) equal pixels."""
+        if not squares.size:
+            return Noise(0.0, 0.0, 0.0)
+        mean, spread = float(squares.mean()), 1.96 * math.sqrt(float(np.square(squares).sum())) / squares.size
+        return Noise(math.sqrt(mean), SEQUENCES * math.sqrt(max(mean - spread, 0.0)), math.sqrt(mean + spread))
+
+    def __str__(self) -> str:
+        return f"noise {self.rms:.2g} of 255 ({self.low:.2g} to {self.high:.2g})"
+
+
+def squares_of(show: Show, radiance: npt.NDArray[np.float32], error: npt.NDArray[np.float32]) -> Doubles:
+    """A quarter of the squared error of each pixel in steps of 1/255, the mean of its channels. `show` gives 16 bits."""
+    darker, brighter = (show(np.maximum(each, 0.0)).astype(np.float64) for each in (radiance - error, radiance + error))
+    squares: Doubles = np.square((brighter - darker) * (0.25 * 255.0 / 65535.0)).mean(axis=2)
+    return squares
+
+
+def until_invisible(context: Context, scene: Scene, camera: Camera, settings: RenderSettings, show: Show, covered: Array,
+                    progress: Progress | None) -> Image:
+    """Takes samples until the noise is at most MOST_NOISE. Returns the image also after progress returned True."""
+    done, ended = 0.5, False
+
+    def watched(first: float, last: float) -> Progress | None:
+        def share(fraction: float) -> bool:
+            nonlocal ended
+            ended = bool(progress and progress(first + (last - first) * fraction))
+            return ended
+        return share if progress else None
+
+    image = context.render(scene, camera, settings, FIRST_SAMPLES, progress=watched(0.0, done))
+    while not ended:
+        squares = squares_of(show, image.radiance, image.standard_error)
+        noise, counts = Noise.of(squares[covered]), image.sample_count[::TILE_SIDE, ::TILE_SIDE].astype(np.float64)
+        goals = _goals(squares, covered, counts, noise)
+        if (goals == counts).all():
+            break
+        needed = np.maximum(goals, counts * (noise.high / MOST_NOISE)**2).sum()
+        ahead = max(done, float(goals.sum() / needed))
+        context.accumulate_tiles(goals - counts, progress=watched(done, ahead))
+        image, done = context.image(), ahead
+    if progress:
+        progress(1.0)
+    return image
+
+
+def _goals(squares: Doubles, covered: Array, counts: Doubles, noise: Noise) -> Doubles:
+    """Samples of the tiles after the next round. Their sum is the least with which the mean square is small enough; then a tile's
+    number goes as the root of its variance. Each tile takes its variance from its neighbours, too: its own alone would end too soon
+    where it is small by chance."""
+    pixels = _by_tiles(covered | (squares > 0.0))
+    variances = _around(_by_tiles(squares) * counts) / np.maximum(_around(pixels), 1.0) * (pixels > 0.0)
+    weights = variances * _by_tiles(covered)
+    needed = variances / (WORST * MOST_NOISE)**2
+    if noise.high > MOST_NOISE:
+        most = SHARE * (MOST_NOISE * noise.rms / noise.high)**2 * float(covered.sum())
+        roots = np.sqrt(weights)
+        low, high = 0.0, float(roots.sum()) / most
+        for _ in range(50):
+            middle = 0.5 * (low + high)
+            left = float((weights / np.maximum(counts, middle * roots)).sum())
+            low, high = (middle, high) if left > most else (low, middle)
+        needed = np.maximum(needed, high * roots)
+    step = 2.0**np.floor(np.log2(counts)) / 4.0
+    goals: Doubles = np.clip(step * np.ceil(needed / step), counts, np.minimum(2.0 * counts, MOST_SAMPLES))
+    return goals
+
+
+def _by_tiles(values: Array) -> Doubles:
+    rows, columns = (range(0, side, TILE_SIDE) for side in values.shape)
+    sums: Doubles = np.add.reduceat(np.add.reduceat(values, rows, axis=0, dtype=np.float64), columns, axis=1)
+    return sums
+
+
+def _around(values: Doubles) -> Doubles:
+    padded: Any = np.pad(values, 1)
+    height, width = values.shape
+    return sum(padded[down:down + height, right:right + width] for down in range(3) for right in range(3))
