@@ -175,7 +175,7 @@ class Radii(unittest.TestCase):
                 prepare(particles, Options(radius=radius))
         drawn = prepare(particles, Options(radius="r", where="r > 0"))
         self.assertEqual(len(drawn.centers), 1)
-        for words, where in (("no column 'q'", "q > 1"), ("must be a column, one of <=", "r ! 1"), ("'x' is none", "r < x"),
+        for words, where in (("no column 'q'", "q > 1"), ("position 3, '!': no word begins so", "r ! 1"), ("'x': must be a number", "r < x"),
                              ("must be == or !=", "w < a"), ("holds", "r > 9")):
             with self.subTest(words=words), self.assertRaisesRegex(ValueError, words):
                 prepare(particles, Options(radius=1, where=where))

@@ -11,6 +11,7 @@ from pt.figures._neighbours import pairs_within
 from pt.figures._options import Options
 from pt.figures._particles import Bonds, Particles
 from pt.figures._rods import Rods
+from pt.figures._select import chosen
 from pt.figures._templates import agreeing, free_ions, known_residues
 
 # O'Boyle et al. 2011, "Open Babel: An open chemical toolbox", Journal of Cheminformatics 3:33: atoms are bonded if their
@@ -146,8 +147,27 @@ def meeting_in_sight(halves: Rods, balls: Array) -> Rods:
     return replace(halves, ways=halves.ways * shares[:, None])
 
 
-def ball_radii(radii: Array, model: str, stick: float, is_given: bool) -> Array:
-    if model == "sticks":
+def models_of(particles: Particles, options: Options) -> Array:
+    """Shape (n,), or (1,) without selections."""
+    models = np.array([options.drawn_model], object)
+    if options.picked_models:
+        models = np.repeat(models, len(particles))
+        for selection, model in options.picked_models.items():
+            models[chosen(particles, selection, "model")] = model
+    return models
+
+
+def among_sticks(bonds: Rods, models: Array) -> Rods:
+    if len(models) == 1:
+        return bonds
+    has_sticks = models != "space-filling"
+    kept = has_sticks[bonds.atoms] & has_sticks[bonds.others]
+    return replace(bonds, atoms=bonds.atoms[kept], others=bonds.others[kept], ways=bonds.ways[kept])
+
+
+def ball_radii(radii: Array, models: Array, stick: float, is_given: bool) -> Array:
+    if len(models) == 1 and models[0] == "sticks":
         return np.array([stick])
-    result: Array = radii * radii.dtype.type(BALL_SHARE) if model == "ball-and-stick" and not is_given else radii
-    return result
+    halves = (models == "ball-and-stick") & (not is_given)
+    result: Array = np.where(halves, radii * radii.dtype.type(BALL_SHARE), radii) if halves.any() else radii
+    return np.where(models == "sticks", radii.dtype.type(stick), result) if len(models) > 1 else result

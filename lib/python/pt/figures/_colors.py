@@ -16,7 +16,7 @@ from pt.figures._elements import categories
 from pt.figures._errors import module
 from pt.figures._options import Options
 from pt.figures._particles import Particles
-from pt.figures._radii import column
+from pt.figures._select import chosen, column, rules
 
 Bytes: TypeAlias = npt.NDArray[np.uint8]
 RGB: TypeAlias = tuple[int, ...]
@@ -67,10 +67,26 @@ def srgb(name: str, color: Any) -> RGB:
 
 
 def colors_of(particles: Particles, given: Options, notes: list[str]) -> tuple[Bytes, Legend]:
-    color = given.color
+    color, picks = given.color, {}
+    if isinstance(color, Mapping) or isinstance(color, str) and "=" in color:
+        base, types, picks = rules("color", color)
+        color = types or base
+    colors, legend = _rest_of_colors(particles, color, given, notes)
+    if not picks:
+        return colors, legend
+    colors = np.array(np.broadcast_to(colors, (len(particles), 3)))
+    named = {selection: srgb(f"color of {selection}", each) for selection, each in picks.items()}
+    for selection, each in named.items():
+        colors[chosen(particles, selection, "color")] = each
+    if isinstance(legend, ColorBar):
+        return colors, legend
+    names, table = ((), []) if legend is None else (legend.names, [legend.colors])
+    return colors, Swatches(given.title or (legend.title if legend else ""), (*names, *named),
+                            np.concatenate([*table, np.array([*named.values()], np.uint8)]))
+
+
+def _rest_of_colors(particles: Particles, color: Any, given: Options, notes: list[str]) -> tuple[Bytes, Legend]:
     count = len(particles.positions)
-    if isinstance(color, str) and "=" in color:
-        color = dict(each.split("=", 1) for each in color.split(","))
     if color is None:
         if particles.types is None and particles.elements is None:
             each = particles.colors
@@ -237,7 +253,7 @@ def _range(values: Array, given: Options, title: str, notes: list[str]) -> tuple
     least, largest = math.inf, -math.inf
     floor = 0.0 if given.scale == "log" else -math.inf
     for rows in chunks(len(values)):
-        numbers = values[rows]
+        numbers = values[rows].astype(np.float64)
         numbers = numbers[np.isfinite(numbers) & (numbers > floor)]
         least = min(least, float(numbers.min(initial=math.inf)))
         largest = max(largest, float(numbers.max(initial=-math.inf)))

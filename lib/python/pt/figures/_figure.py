@@ -22,7 +22,7 @@ from pt._fit import Array, Doubles, chunks
 from pt._image import Image
 from pt._scene import Scene, SphereArray
 from pt.figures._accept import load
-from pt.figures._bonds import ball_radii, bonds_of, meeting_in_sight
+from pt.figures._bonds import among_sticks, ball_radii, bonds_of, meeting_in_sight, models_of
 from pt.figures._cell import Cell
 from pt.figures._colors import Legend, colors_of, srgb
 from pt.figures._compose import compose, lay_over
@@ -36,9 +36,9 @@ from pt.figures._overlay import Overlaid, Shares, line_width, pixels_per_length,
 from pt.figures._particles import Particles
 from pt.figures._radii import opacities_of, radii_of
 from pt.figures._rods import Rods, cell_corners, cell_edges, vectors_of
+from pt.figures._select import chosen
 from pt.figures._stage import EDGES, SURROUND_BRIGHTNESS
 from pt.figures._trails import trails_of
-from pt.figures._where import holds
 
 LEAST_LENGTH: Final = 1e-18
 INK: Final = "#222222"
@@ -109,7 +109,9 @@ def prepare(particles: Particles, options: Options, scale: float | None = None, 
         bonds = bonds_of(particles, options, radii, notes)
         rods.append(bonds)
         settled.update({"bond_radius": bonds.radius} if len(bonds.atoms) else {})
-        radii = ball_radii(radii, options.drawn_model, bonds.radius, options.radius is not None)
+        models = models_of(particles, options)
+        rods[-1] = bonds = among_sticks(bonds, models)
+        radii = ball_radii(radii, models, bonds.radius, options.radius is not None)
         rods[-1] = meeting_in_sight(bonds, radii)
     shown = _shown(particles, options, radii, notes)
     positions = particles.positions
@@ -128,7 +130,7 @@ def prepare(particles: Particles, options: Options, scale: float | None = None, 
 
 def _shown(particles: Particles, options: Options, radii: Array, notes: list[str]) -> Array | None:
     conditions = [options.where] if isinstance(options.where, str) else options.where
-    shown: Array | None = np.logical_and.reduce([holds(particles, each) for each in conditions]) if conditions else None
+    shown: Array | None = np.logical_and.reduce([chosen(particles, each) for each in conditions]) if conditions else None
     if shown is not None and not shown.any():
         raise ValueError(f"{particles.name} has no particles for which where = {', '.join(conditions)} holds")
     _check(particles.name, radii, shown)

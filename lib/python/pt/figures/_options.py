@@ -13,16 +13,18 @@ from pt._callbacks import Progress
 from pt._camera import Camera
 from pt._context import Context
 from pt._scene import Material
+from pt.figures._select import rules
 
 Color: TypeAlias = "str | Mapping[str, str] | Sequence[float] | npt.ArrayLike | None"
 Radius: TypeAlias = "float | str | Mapping[str, float] | npt.ArrayLike | None"
-Opacity: TypeAlias = "float | str | npt.ArrayLike | None"
+Opacity: TypeAlias = "float | str | Mapping[str, float] | npt.ArrayLike | None"
 Bonds: TypeAlias = "bool | str | float | npt.ArrayLike | None"
 Vectors: TypeAlias = "str | npt.ArrayLike | None"
 Direction: TypeAlias = "str | Sequence[float] | npt.NDArray[Any]"
 Columns: TypeAlias = "Mapping[str, str] | str | None"
 
 VIEWS: Final = ("three-quarter", "front", "back", "left", "right", "top", "bottom")
+MODELS: Final = ("auto", "space-filling", "ball-and-stick", "sticks")
 SAMPLES: Final = 128
 DRAFT_SAMPLES: Final = 8
 MOST_SAMPLES: Final = 65536
@@ -65,13 +67,15 @@ class Options:
     columns: Columns = _data(None, "x=NAME,...", "names of the columns for x, y, z, radius, diameter, element, type, red, green, "
                              "blue, instead of the detected ones")
     drop_nonfinite: bool = _data(False, "", "leaves out particles whose position or radius is not finite")
-    where: str | Sequence[str] = _data((), "CONDITION", "shows only particles that fulfil this condition, \"z < 5\" or \"element "
-                                       "!= H\", or several conditions. Hidden particles count for ranges of colors and radii")
+    where: str | Sequence[str] = _data((), "SELECTION", "shows only these particles: columns with values or comparisons, with and, "
+                                       "or, not, parentheses and within, \"resname XK2 or within 5 of (chain A and z > 3)\", "
+                                       "\"not water\", \"resid 10-20\". Hidden particles count for ranges of colors and radii")
     wrap: bool = _data(False, "", "moves particles outside a periodic cell back into the cell")
 
     color: Color = _particles(
         None, "COLUMN|COLOR|...", "a column of numbers or words; a magnitude, \"|velocity|\" or \"|vx,vy,vz|\"; columns of "
-        "sRGB, \"red,green,blue\"; one color, \"#ff8000\" or \"orange\"; colors of types, \"O=red,H=#ffffff\". In Python also "
+        "sRGB, \"red,green,blue\"; one color, \"#ff8000\" or \"orange\"; colors of types and selections, \"O=red,H=#ffffff,chain A=blue\", "
+        "also after a column. In Python also "
         "{\"O\": \"red\"}, and arrays of shape (n,), or (n, 3) of sRGB, floats from 0 to 1 or uint8. Default: Jmol's colors of "
         "elements, with light grey hydrogen; else a palette of types; else the data's colors; else grey")
     colormap: Any = _particles(None, "MAP", "name of a matplotlib colormap; the suffix _r reverses it. In Python also an object. "
@@ -88,21 +92,21 @@ class Options:
     colorbar: bool = _particles(False, "", "draws the legend at the right of the picture")
     radius: Radius = _particles(
         None, "R|COLUMN|...", "a number in the units of the data; a column; covalent or van-der-waals (for elements, in "
-        "angstroms); radii of types, \"O=0.7,H=0.3\"; a factor with any of them, \"0.5*diameter\". In Python also {\"O\": 0.7} "
+        "angstroms); radii of types and selections, \"O=0.7,H=0.3\", \"covalent,chain A=2\"; a factor with any of them, \"0.5*diameter\". In Python also {\"O\": 0.7} "
         "and arrays. Default: the data's radii; else covalent radii if distances are in angstroms, up to 3 times as large for "
         "neighbours that are not bonded; else half of the distance of most neighbours")
 
     opacity: Opacity = _particles(
-        None, "A|COLUMN", "probability from 0 to 1 that a ray hits a particle, its bonds and its vector: a number or a column, in "
-        "Python also an array. Default: 1")
+        None, "A|COLUMN", "probability from 0 to 1 that a ray hits a particle, its bonds and its vector: a number, a column, or of "
+        "selections, \"chain A=0.3\"; in Python also an array. Default: 1")
     bonds: Bonds = _particles(
         None, "auto|CUTOFF", "auto (in Python also True) bonds atoms whose distance is at most the sum of their covalent radii "
         "(Cordero 2008) and 0.45 angstroms, as in Open Babel; a number bonds all within this distance. In Python also pairs of "
         "indices, shape (k, 2). Default: no bonds")
     wall_bonds: str = _particles("halves", "", "bonds through the walls of a periodic cell", choices=("halves", "none"))
-    model: str = _particles("auto", "", "ball-and-stick halves the radii unless radius is given; sticks (licorice) has no balls. "
-                            "Both have bonds. auto is ball-and-stick with bonds, otherwise space-filling",
-                            choices=("auto", "space-filling", "ball-and-stick", "sticks"))
+    model: str | Mapping[str, str] = _particles("auto", "MODEL", "auto, space-filling, ball-and-stick or sticks, also of selections, "
+                            "\"space-filling,resname XK2=sticks\". ball-and-stick halves the radii unless radius is given; sticks (licorice) has no balls. "
+                            "Both have bonds. auto is ball-and-stick with bonds, otherwise space-filling")
     bond_radius: float | None = _particles(
         None, "R", "radius of bonds in the units of the data. Default: 0.07 of the median length of bonds, for sticks 0.14",
         read=float, rule=(lambda radius: 0.0 < radius < math.inf, "> 0 and finite"))
@@ -158,6 +162,7 @@ class Options:
             holds, words = known.get("rule", (None, ""))
             if holds and value is not None and not holds(value):
                 raise ValueError(f"{each.name} = {value}: must be {words}")
+        self._models  # checks it
         if self.outlines and self.opacity is not None:
             raise ValueError("outlines = True: must be False with opacity, which leaves no edges in front")
 
@@ -169,12 +174,26 @@ class Options:
     def bond_rule(self) -> Bonds:
         """None if no bonds are drawn. Models with sticks always have bonds."""
         given = not (self.bonds is None or self.bonds is False)
-        return self.bonds if given else "auto" if self.drawn_model != "space-filling" else None
+        drawn = {self.drawn_model, *self.picked_models.values()}
+        return self.bonds if given else "auto" if drawn != {"space-filling"} else None
+
+    @functools.cached_property
+    def _models(self) -> tuple[str, dict[str, str]]:
+        base, others, picks = ((self.model, {}, {}) if isinstance(self.model, str) and "=" not in self.model else
+                               rules("model", self.model))
+        for model in (base or "auto", *others, *picks.values()):
+            if model not in MODELS:
+                raise ValueError(f"model = {model!r}: must be {', '.join(MODELS)}")
+        return base or "auto", picks
+
+    @property
+    def picked_models(self) -> dict[str, str]:
+        return self._models[1]
 
     @property
     def drawn_model(self) -> str:
-        if self.model != "auto":
-            return self.model
+        if self._models[0] != "auto":
+            return self._models[0]
         return "space-filling" if self.bonds is None or self.bonds is False else "ball-and-stick"
 
     @property

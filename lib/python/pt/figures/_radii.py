@@ -3,7 +3,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 import numpy.typing as npt
@@ -12,6 +12,7 @@ from pt._fit import Array, Doubles, chunks, coordinates
 from pt.figures import _elements as elements
 from pt.figures._options import Opacity, Radius
 from pt.figures._particles import Particles
+from pt.figures._select import chosen, column, rules
 from pt.figures._spread import reaches_of, usual_reach
 
 PROBES: Final = 1000
@@ -25,17 +26,24 @@ MOST_FACTOR: Final = 3.0  # largest factor of covalent radii, so that balls of d
 STEPS: Final = np.indices((3, 3, 3)).reshape(3, 1, 27) - 1
 
 
-def column(particles: Particles, name: str) -> Array:
-    known = {"radius": particles.radii, "type": particles.types, "element": particles.elements}
-    values = known.get(name) if name not in particles.columns else None
-    if values is None:
-        return particles.column(name)
-    if name == "element":
-        return np.array(elements.SYMBOLS)[values]
-    return values
-
-
 def radii_of(particles: Particles, radius: Radius, notes: list[str]) -> Array:
+    picks: Mapping[str, float] = {}
+    if isinstance(radius, Mapping) or isinstance(radius, str) and "=" in radius:
+        base, types, picks = rules("radius", radius)
+        try:
+            types, picks = ({name: float(number) for name, number in each.items()} for each in (types, picks))
+        except ValueError:
+            raise ValueError(f"radius = {radius!r}: must be like O=0.7,H=0.3 or chain A=2") from None
+        radius = types or base
+    radii = _rest_of_radii(particles, radius, notes)
+    if picks:
+        radii = np.array(np.broadcast_to(radii, len(particles)))
+        for selection, number in picks.items():
+            radii[chosen(particles, selection, "radius")] = number
+    return radii
+
+
+def _rest_of_radii(particles: Particles, radius: Radius, notes: list[str]) -> Array:
     factor = 1.0
     if isinstance(radius, str):
         product = re.fullmatch(r"\s*([-+.\deE]+)\s*\*\s*(.+?)\s*", radius)
@@ -49,12 +57,6 @@ def radii_of(particles: Particles, radius: Radius, notes: list[str]) -> Array:
 
 
 def _from_text(text: str) -> Radius:
-    if "=" in text:
-        pairs = [each.partition("=") for each in text.split(",")]
-        try:
-            return {name.strip(): float(number) for name, _, number in pairs}
-        except ValueError:
-            raise ValueError(f"radius = {text!r}: must be like O=0.7,H=0.3") from None
     try:
         return float(text)
     except ValueError:
@@ -78,8 +80,18 @@ def _unscaled(particles: Particles, radius: Radius, notes: list[str]) -> Array:
 def opacities_of(particles: Particles, opacity: Opacity) -> Array | None:
     if opacity is None:
         return None
+    picks: Mapping[str, Any] = {}
+    if isinstance(opacity, Mapping) or isinstance(opacity, str) and "=" in opacity:
+        base, types, picks = rules("opacity", opacity)
+        if types:
+            raise ValueError(f"opacity: {next(iter(types))!r} must be a selection, like element O")
+        opacity = base or 1.0
     shares = _numbers("opacity", _number_or_column(particles, opacity) if isinstance(opacity, str) else opacity,
                       len(particles.positions))
+    if picks:
+        shares = np.array(np.broadcast_to(shares, len(particles)), np.float64)
+        for selection, number in picks.items():
+            shares[chosen(particles, selection, "opacity")] = float(number)
     good = (shares >= 0.0) & (shares <= 1.0)
     if not good.all():
         raise ValueError(f"opacity of particle {int(good.argmin()) + 1:,} = {shares[good.argmin()]}: must lie in [0, 1]")

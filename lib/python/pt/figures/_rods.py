@@ -11,7 +11,7 @@ from pt.figures._cell import Cell
 from pt.figures._colors import components
 from pt.figures._options import Vectors
 from pt.figures._particles import Particles
-from pt.figures._radii import column
+from pt.figures._select import column
 
 LONGEST: Final = 4.0  # length of the longest vector in median particle radii; by taste
 WIDTH: Final = 0.3
