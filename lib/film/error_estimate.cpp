@@ -15,7 +15,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double channels = 3.0;
 
 // An estimate is uncertain if more than this fraction of the squared error is unseen light. Calibrated.
-constexpr double much_unseen = 0.2;
+constexpr double much_unseen = 0.1;
 
 // An estimate is uncertain if rarer light could multiply the squared error by this. Calibrated.
 constexpr double much_more = 3.0;
@@ -69,7 +69,7 @@ ErrorSquares relative_squares(const TileErrors &all, double met_again) {
 // The root of a sum over n pixels has a relative standard deviation of about 1 / (2 sqrt(n)). The added fraction is a
 // little larger, because understated errors do more harm. Calibrated.
 double share_added(double pixel_count) {
-    return 0.6 / std::sqrt(pixel_count) + 1.2 / pixel_count;
+    return 0.6 / std::sqrt(pixel_count) + 2.5 / pixel_count;
 }
 
 // The logarithm of the root of a sum of m squared normal variables has the standard deviation 1 / sqrt(2 m). Since E

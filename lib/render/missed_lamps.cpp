@@ -66,8 +66,9 @@ bool may_miss_lamps(const PreparedScene &scene, const Camera &camera, const Rend
 }
 
 // Errors of lamps with fewer expected hits are uncertain. Calibrated.
-constexpr double few_hits = 6.0;
+constexpr double few_hits = 10.0;
 
+// The errors of missed lamps and of the light that samples hit are independent, so their squares add up.
 void take_in_unmet_lamps(ErrorEstimate &error, const UnmetSquares &unmet, double value_count) {
     const auto raise = [&](const ExpectedSquares &squares, Interval &interval) {
         if (squares.sum == 0.0)
@@ -75,11 +76,9 @@ void take_in_unmet_lamps(ErrorEstimate &error, const UnmetSquares &unmet, double
         const double hits = squares.hits();
         const double root = std::sqrt(squares.sum / value_count) * (1.0 + share_added(hits));
         const bool is_uncertain = hits < few_hits && uncertain_factor * root > interval.estimate;
-        if (root > interval.estimate) {
-            interval.estimate = root;
-            interval.high =
-                std::max(interval.high, root * spread_of_pixels(hits) * (is_uncertain ? uncertain_factor : 1.0));
-        }
+        const double bound = root * spread_of_pixels(hits) * (is_uncertain ? uncertain_factor : 1.0);
+        interval.estimate = std::hypot(interval.estimate, root);
+        interval.high = std::hypot(interval.high, bound);
         return is_uncertain;
     };
     const bool is_rmse_uncertain = raise(unmet.square, error.rmse);

@@ -43,7 +43,8 @@ LARGE, MANY = (96, 48), 256
 FAULTS = {"density of lamps by 3%": ("lights.glsl", "surface_of_lamp(choice.lamp)), density)",
                                      "surface_of_lamp(choice.lamp)), 1.03 * density)"),
           "density of directions by 3%": ("phong.glsl", "0.5 / PI : density)", "0.5 / PI : 1.03 * density)"),
-          "weight of spots": ("path.glsl", "towards.density * float(BRANCH_COUNT)", "towards.density")}
+          "weight of spots": ("path.glsl", "towards.density * float(BRANCH_COUNT)", "towards.density"),
+          "a lost branch": ("path.glsl", "while (branch < BRANCH_COUNT)", "while (branch + 1u < BRANCH_COUNT)")}
 NEEDED, MOST, WIDE = (0.01, 0.003, 0.001), 1 << 13, (256, 128)
 
 

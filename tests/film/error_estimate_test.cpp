@@ -31,7 +31,7 @@ pt::ErrorEstimate estimate(std::uint32_t width, const std::vector<float> &radian
 
 // The margin for squares concentrated in `pixel_count` equal pixels (error_estimate.cpp).
 double raised(double root, double pixel_count) {
-    return root * (1.0 + 0.6 / std::sqrt(pixel_count) + 1.2 / pixel_count);
+    return root * (1.0 + 0.6 / std::sqrt(pixel_count) + 2.5 / pixel_count);
 }
 
 // Two of six values have the squares 3^2 and 4^2. They are as concentrated as 25^2 / (9^2 + 16^2) equal values.

@@ -228,20 +228,18 @@ TEST(SmallLamps, CountAgainstATargetIfTheirLackShows) {
     EXPECT_EQ(pt::samples_to_hit(dim, 0.01, true), 0U);
 }
 
-// The lamps expect 8 or 2 hits. The samples show a smaller error, one up to twice as large, or a larger one.
-TEST(SmallLamps, RaiseTheErrorAndLeaveItUncertainIfTheyAreHardlyMet) {
-    for (const double meetings : {8.0, 2.0})
-        for (const double shown : {0.1, 5.0, 9.0}) {
+// The lamps expect 12 or 2 hits. The samples show a smaller error, one up to twice as large, or a larger one.
+TEST(SmallLamps, AddTheirSquaresAndLeaveTheErrorUncertainIfTheyAreHardlyHit) {
+    for (const double hits : {12.0, 2.0})
+        for (const double shown : {0.1, 5.0, 12.0}) {
             pt::ErrorEstimate error{{shown, shown, shown}, {shown, shown, shown}, 0};
-            const pt::ExpectedSquares squares{12.0, 144.0 / meetings};
+            const pt::ExpectedSquares squares{12.0, 144.0 / hits};
             pt::take_in_unmet_lamps(error, {squares, squares}, 3.0);
-            const double root = 2.0 * (1.0 + 0.6 / std::sqrt(meetings) + 1.2 / meetings);
-            const bool is_raised = shown < root;
-            const bool is_uncertain = shown < 2.0 * root && meetings < 6.0;
-            EXPECT_DOUBLE_EQ(error.relative_rmse.estimate, is_raised ? root : shown);
-            EXPECT_DOUBLE_EQ(error.rmse.high,
-                             is_raised ? root * std::exp(1.96 / std::sqrt(3.0 * meetings)) * (is_uncertain ? 2.0 : 1.0)
-                                       : shown);
+            const double root = 2.0 * (1.0 + pt::share_added(hits));
+            const bool is_uncertain = shown < 2.0 * root && hits < 10.0;
+            EXPECT_DOUBLE_EQ(error.relative_rmse.estimate, std::sqrt(shown * shown + root * root));
+            const double bound = root * std::exp(1.96 / std::sqrt(3.0 * hits)) * (is_uncertain ? 2.0 : 1.0);
+            EXPECT_DOUBLE_EQ(error.rmse.high, std::sqrt(shown * shown + bound * bound));
             EXPECT_EQ(error.uncertain, is_uncertain ? unsigned{PT_UNCERTAIN_UNMET} : 0U);
 
             pt::ErrorEstimate absolute{{shown, shown, shown}, {shown, shown, shown}, 0};

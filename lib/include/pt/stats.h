@@ -48,7 +48,7 @@ enum {
     /** relative_rmse comes from fewer than 4 pixels, or from light that only single samples have found. If that light
      * is rare, the square of the true error may be three times the stated one. */
     PT_UNCERTAIN_RELATIVE_RMSE = 2,
-    /** more than a fifth of the square of relative_rmse is expected from dark pixels beside very bright ones, as light
+    /** more than a tenth of the square of relative_rmse is expected from dark pixels beside very bright ones, as light
      * that no sample has found. */
     PT_UNCERTAIN_UNSEEN = 4,
     /** samples may have missed lamps, for one of two reasons.
