@@ -1,5 +1,5 @@
-"""Checks libpt's exported symbols and soname: exported_symbols_test.py LIBRARY ARCHIVE HEADERS LIST C_COMPILER. HEADERS is a folder.
-Programs break without a symbol that they use, so every symbol is a promise."""
+"""Checks libpt's exported symbols and soname: exported_symbols_test.py LIBRARY ARCHIVE HEADERS LIST C_COMPILER. HEADERS
+is a folder."""
 
 import pathlib
 import re
@@ -16,7 +16,6 @@ def output(*command):
 
 
 def symbols_of(path, *options):
-    """Global names that nm shows as defined."""
     lines = output("nm", "--defined-only", "--format=posix", *options, path).splitlines()
     return {line.split()[0] for line in lines if len(line.split()) > 2}
 

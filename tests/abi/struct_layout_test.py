@@ -12,7 +12,7 @@ import tempfile
 
 
 def loaded_file(path):
-    """Loads a file without its package, which needs NumPy and the library."""
+    """Loads a file without its package, because the package needs NumPy and the library."""
     spec = importlib.util.spec_from_file_location(path.stem, path)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
@@ -69,7 +69,7 @@ def python_layout(structs):
 
 
 def packed(layout):
-    """The table's text. Each line has a struct, its size, and the offset and size of each member."""
+    """Writes each struct on one line: its name and size, then the offset and size of each member."""
     return re.sub(r"\n\w+\.", ", ", "\n".join(layout))
 
 
@@ -83,7 +83,7 @@ def differences(found, table):
 
 
 def check_the_check(headers, table, compiler):
-    """Negative control: a member at the end, in the middle, of another type, renamed, or removed."""
+    """Negative control: a member is added at the end or in the middle, changes its type or name, or is removed."""
     for old, new, wanted in (
         ("uint32_t row_count;", "uint32_t row_count; uint64_t more;", "+ pt_render.more 48 8"),
         ("double offset;", "double before; double offset;", "+ pt_plane.offset 32 8"),

@@ -52,14 +52,14 @@ std::vector<Item> items() {
     return items;
 }
 
-// An absolute bound with u = 2^-24 and W = forward + x right - y up. The products add errors of 2 u (|x| + |y|) <= 2.9
-// u |W|, and the sums of 2 u |W|. Dividing W by its length adds 3 u / 2 for the dot product, 9 u for sqrt and 5 u for
-// the division.
+// Bounds the error of a direction. Let u = 2^-24 and W = forward + x right - y up. The products add errors of 2 u (|x|
+// + |y|) <= 2.9 u |W|, and the sums add 2 u |W|. Dividing W by its length adds 3 u / 2 for the dot product, 9 u for
+// sqrt and 5 u for the division.
 constexpr Real bound = (2.9L + 2 + 15.5L) * half_ulp;
 
-// The bound of the distance between lens ray and pinhole ray in the plane of focus, over their length. The radius adds
-// an error of 7 u: 2 u for the origin, 2 u for the direction's matching term, u for the direction's length and 2 u for
-// the position in the image.
+// Bounds the distance of the lens ray from the pinhole ray in the plane of focus, divided by the rays' length. The
+// radius adds an error of 7 u: 2 u for the origin, 2 u for the same term of the direction, u for the direction's
+// length, and 2 u for the position in the image.
 Real lens_bound(Real radius, Real distance) {
     return 7 * half_ulp * radius / distance + bound;
 }

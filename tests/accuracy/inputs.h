@@ -17,7 +17,7 @@ public:
 
     std::uint32_t word() { return static_cast<std::uint32_t>(generator_()); }
 
-    // Numbers like the sampler's. One in sixteen is among the first or last four values.
+    // Returns a multiple of 2^-24 in [0, 1), like the sampler. One in sixteen is among the first or last four values.
     float number() {
         const std::uint32_t bits = word() >> 8;
         const std::uint32_t choice = word();
@@ -27,7 +27,7 @@ public:
 
     double log_uniform(double low, double high) { return low * std::pow(high / low, word() * 0x1p-32); }
 
-    // One direction in eight is an axis, or 2^-k away from one.
+    // One direction in eight is an axis, or differs from an axis by about 2^-k.
     glm::vec3 direction() {
         const std::uint32_t choice = word();
         glm::dvec3 vector(normal(), normal(), normal());

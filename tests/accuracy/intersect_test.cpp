@@ -18,15 +18,15 @@ constexpr float leaving_outside = 1.0F;
 constexpr float leaving_inside = 2.0F;
 
 struct Item {
-    glm::vec3 center; // for spheres relative to the ray's start; for planes the normal
-    float radius;     // for planes the height
+    glm::vec3 center; // relative to the ray's start, or a plane's normal
+    float radius;     // or a plane's height, the constant of its equation
     glm::vec3 direction;
     float start;
 };
 
 struct Result {
     float sphere, plane;
-    float blocks_before, blocks_behind; // whether shadow rays are blocked that end before or behind the hit
+    float blocks_before, blocks_behind; // whether a shadow ray that ends before or behind the hit is blocked
 };
 
 constexpr float no_hit = 3.0e38F;
@@ -62,7 +62,7 @@ std::vector<Item> items() {
     return items;
 }
 
-// `met` is 1 for a hit, 0 for none, and -1 if float32 cannot decide.
+// `met` is 1 for a hit, 0 for a miss, and -1 if float32 cannot decide.
 struct Exact {
     int met;
     Real distance;
@@ -71,8 +71,8 @@ struct Exact {
 
 // Let u = 2^-24, d = |center|, b = center . direction and l = |center - b direction|. The error of b is 3 u d, plus d
 // times the deviation of the direction's length from 1. Across the ray, center - b direction has an error of u |b| + u
-// l. Along the ray, the error of b counts squared. Further errors are 3 u for l^2, u for r^2, u for the difference and
-// 9 u for sqrt.
+// l. Along the ray, only the square of b's error counts. Further errors are 3 u for l^2, u for r^2, u for the
+// difference and 9 u for sqrt.
 Exact exact_sphere(const Item &item) {
     const Direction center(item.center);
     const Direction direction = glm::normalize(Direction(item.direction));
@@ -83,7 +83,7 @@ Exact exact_sphere(const Item &item) {
     if (item.start == leaving_outside)
         return {0, no_hit, 1};
     if (item.start == leaving_inside)
-        return {std::abs(b) > b_bound ? 1 : -1, 2 * std::abs(b), 2 * b_bound}; // start on the surface
+        return {std::abs(b) > b_bound ? 1 : -1, 2 * std::abs(b), 2 * b_bound}; // The ray starts on the surface.
     const Real l = glm::length(center - b * direction);
     const Real along = 2 * b_bound;
     const Real l_bound = half_ulp * (std::abs(b) + l);
@@ -93,11 +93,11 @@ Exact exact_sphere(const Item &item) {
     const Real bound = b_bound + 9 * half_ulp * half_chord + std::sqrt(std::max<Real>(square, 0) + square_bound) -
                        std::sqrt(std::max<Real>(square - square_bound, 0)) + 2 * half_ulp * (std::abs(b) + half_chord);
     if (std::abs(d * d - r * r) < 5 * half_ulp * d * d)
-        return {-1, 0, 0}; // start on the surface
+        return {-1, 0, 0}; // The ray starts on the surface.
     const bool outside = d > r;
     const Real distance = outside ? b - half_chord : b + half_chord;
     if (outside && std::abs(square) <= square_bound)
-        return {-1, 0, 0}; // grazing ray
+        return {-1, 0, 0}; // The ray grazes the sphere.
     const bool met = (square > 0 || !outside) && distance > 0;
     return {std::abs(distance) <= bound ? -1 : static_cast<int>(met), distance, bound};
 }
@@ -110,7 +110,7 @@ Exact exact_plane(const Item &item) {
     if (item.start != anywhere)
         return {0, no_hit, 1};
     if (std::abs(rate) <= 2 * rate_bound)
-        return {-1, 0, 0}; // parallel to the plane
+        return {-1, 0, 0}; // The ray is parallel to the plane.
     const Real distance = -item.radius / rate;
     return {distance > 0, distance, std::abs(distance) * (rate_bound / (std::abs(rate) - rate_bound) + 5 * half_ulp)};
 }
@@ -143,8 +143,8 @@ struct Wrong {
     std::size_t shadows = 0;
 };
 
-// Shadow rays end a tenth before or behind the hit. Hits nearer than 1e-4 |center| are skipped: this is only 100
-// float32 errors.
+// Shadow rays end a tenth before or behind the hit. Hits nearer than 1e-4 |center| are skipped, because this distance
+// is only 100 times the error of float32.
 bool blocks_rightly(const Exact &exact, const Result &found, const Item &item) {
     if (exact.met == 1 && exact.distance > 1e-4L * glm::length(Direction(item.center)))
         return found.blocks_before == 0.0F && found.blocks_behind == 1.0F;

@@ -87,15 +87,15 @@ struct View {
         height = squared_sine / (1 + cosine);
         highest_cosine = glm::dot(glm::normalize(Direction(item.normal)), axis) + Real{lamp.radius} / distance;
         // sin^2 has errors of u for r^2, 5 u for d^2 and 5 u for the division. 1 - sin^2 has the same absolute error,
-        // plus u / 2. After it sqrt adds 9 u, the sum u and the division 5 u.
+        // plus u / 2. Then sqrt adds 9 u, the sum adds u, and the division adds 5 u.
         const Real cosine_bound = root_bound(1 - squared_sine, 11.5L * half_ulp) + 9 * half_ulp * cosine;
         height_share = 16 * half_ulp + (cosine_bound + 2 * half_ulp) / (1 + cosine - cosine_bound);
     }
 };
 
 // The axis has an error of 8.5 u: u for the differences, 6.5 u for inversesqrt of d^2 and u for the product. This error
-// counts once along the direction, and three times across because the basis turns. direction_about() adds its own
-// error, and u for the rounding of u.x h.
+// counts once along the direction, and three times across, because the basis turns with the axis. direction_about()
+// adds its own error, and u for the rounding of u.x h.
 Real direction_bound(const View &view, const glm::vec3 &axis, Real h) {
     const Real axis_bound = 8.5L * half_ulp;
     const Real sine = std::sqrt(h * (2 - h));

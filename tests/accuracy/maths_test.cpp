@@ -66,7 +66,7 @@ TEST(AccuracyMaths, ASingleErrorIsSeen) {
             values[wrong] = std::nextafter(values[wrong], 1e30F);
         const pt_function_accuracy row = pt::compare(function, arguments, values);
         EXPECT_GT(row.worst_error, function.bound) << function.name;
-        EXPECT_LT(row.worst_error, 2.0 * (function.bound + 2.0)) << function.name; // Below 2^e steps are half as large.
+        EXPECT_LT(row.worst_error, 2.0 * (function.bound + 2.0)) << function.name; // Below 2^e, ulps are half as large.
         EXPECT_EQ(row.worst_input, double{arguments[wrong]}) << function.name;
         EXPECT_STREQ(row.name, function.name);
     }

@@ -47,7 +47,7 @@ std::vector<Item> items(bool about_mirror) {
         item.axis = inputs.direction();
         item.normal = inputs.direction();
         if (glm::dot(item.normal, item.axis) > 0.0F)
-            item.normal = -item.normal; // turned to the side from which the path comes
+            item.normal = -item.normal; // turned towards the path's origin
         const float exponents[] = {0.0F, 1.0F, 1e9F, static_cast<float>(inputs.log_uniform(1e-3, 1e9))};
         item.glossiness = exponents[std::min<std::size_t>(i % 16, 3)];
         const double width = std::min(1.0, std::sqrt(2.0 / std::max(item.glossiness, 1.0F)));
@@ -81,9 +81,9 @@ Real power(Real cosine, Real n) {
 }
 
 // The lobe is max(0, wo . r)^n. mirror_error is the error of r. Let u = 2^-24 and y = |wo - r|^2 / 2. Differences add
-// errors of 2 u, squares u and sums 2 u. If the lengths are 1 + a and 1 + b, y becomes y (1 + a) (1 + b) + (a - b)^2
-// / 2. log2(1 - y) has an error of 22 u (18 ulp of at most u / 2 at 0.42). The product with n adds u, and 2^x adds 3 +
-// 2 |x| ulp of at most 2 u. Below 2^-99 the lobe is 0.
+// errors of 2 u, squares u and sums 2 u. If the lengths are 1 + a and 1 + b, y becomes y (1 + a) (1 + b) + (a - b)^2 /
+// 2. log2(1 - y) has a relative error of 22 u, from 18 ulp of at most u / 2 at the value 0.42. The product with n adds
+// u, and 2^x adds 3 + 2 |x| ulp of at most 2 u. Below 2^-99 the lobe is 0.
 Bounded lobe(const Direction &r, const Direction &wo, Real r_length, Real wo_length, Real mirror_error, Real n) {
     const Direction chord = wo - r;
     const Real y = glm::dot(chord, chord) / 2;
@@ -102,8 +102,8 @@ Bounded lobe_about_axis(const Item &item) {
                 length_error(item.outgoing), 0, item.glossiness);
 }
 
-// In I - 2 (N . I) N, the dot product has an error of 2 u, the second term 4 u + 2 u, and the difference u. Four times
-// the deviation of the normal's length from 1 is added.
+// In I - 2 (N . I) N, the dot product has an error of 2 u, the second term of 4 u + 2 u, and the difference of u. Four
+// times the deviation of the normal's length from 1 is added.
 Bounded lobe_about_mirror(const Item &item) {
     const Direction normal = glm::normalize(Direction(item.normal));
     const Direction r = glm::reflect(glm::normalize(Direction(item.axis)), normal);
@@ -111,7 +111,7 @@ Bounded lobe_about_mirror(const Item &item) {
                 7 * half_ulp + 4 * length_error(item.normal), item.glossiness);
 }
 
-// The coefficients of value / cosine or of density, by pt.h and Lafortune and Willems (1994).
+// The coefficients of value / cosine, or of the density (pt.h; Lafortune and Willems 1994).
 struct Terms {
     Real diffuse, specular;
 
@@ -165,10 +165,9 @@ TEST(AccuracyPhong, OfLobes) {
         const Item &item = all[i];
         const Bounded lobe = lobe_about_axis(item);
         power.add(results[i].power, lobe.exact, lobe.bound, list(item.axis, item.glossiness, item.outgoing));
-        // In 1 - 2^(log2(1 - u) / (n + 1)), the logarithm has an error of 22 u, n + 1 one of u, and the division one of
-        // 5 u. With x = ln(1
-        // - u) / (n + 1), these relative errors of x are multiplied by |x| e^x / (1 - e^x) <= 1. 2^x adds 2.5 ulp <= 5
-        // u.
+        // Let t be the random number. In 1 - 2^(log2(1 - t) / (n + 1)), the logarithm has an error of 22 u, n + 1 of u,
+        // and the division of 5 u. These are relative errors of x = ln(1 - t) / (n + 1), and are multiplied by |x| e^x
+        // / (1 - e^x) <= 1. 2^x adds 2.5 ulp <= 5 u.
         const Real h = -std::expm1(std::log1p(-Real{item.numbers.x}) / (Real{item.glossiness} + 1));
         direction.add(glm::vec3(results[i].direction),
                       turned_to(item.axis, direction_at(1 - h, std::sqrt(h * (2 - h)), item.numbers.y)),

@@ -22,7 +22,7 @@ struct Result {
 std::vector<Item> items() {
     Inputs inputs(1);
     std::vector<Item> items;
-    // Caps have heights 1 - cos(angle) from 5e-15, an angle of 1e-7, to 2, the whole sphere. The densities are so far
+    // Caps have heights 1 - cos(angle) from 5e-15 (an angle of 1e-7) to 2 (the whole sphere). The densities are so far
     // apart that some squares or ratios overflow. All are within 2^+-126, where Vulkan bounds the error of division.
     for (std::size_t i = 0; i < random_count; ++i)
         items.push_back({inputs.direction(), static_cast<float>(inputs.log_uniform(5e-15, 2.0)),
@@ -38,18 +38,18 @@ std::vector<Item> items() {
     return items;
 }
 
-// u and 1 - u are exact. Their roots have errors of 9 u each. Both rotations add their own.
+// The random number x and 1 - x are exact. Their roots have errors of 9 u each. Both rotations add their errors.
 Real cosine_hemisphere_bound(const Item &item) {
     const Real sine = std::sqrt(Real{item.numbers.x});
     return rotation_bound(item.axis, sine) + azimuth_bound(sine) + 9 * half_ulp;
 }
 
-// 1 - 2 u is exact. The sine 2 sqrt(u (1 - u)) has an error of u / 2 + 9 u.
+// 1 - 2 x is exact. The sine 2 sqrt(x (1 - x)) has an error of u / 2 + 9 u.
 Real uniform_bound(Real sine) {
     return azimuth_bound(sine) + 9.5L * half_ulp * sine + half_ulp / 2;
 }
 
-// If the dot product cannot tell the side within its error (2 u and the lengths' deviations from 1), the nearer
+// If the dot product does not decide the side within its error (2 u and the lengths' deviations from 1), the nearer
 // direction counts.
 Direction mirrored_up(const Direction &direction, const Item &item, const glm::vec4 &found) {
     const Real cosine = glm::dot(direction, Direction(item.axis));
@@ -70,7 +70,7 @@ Direction concentric(const glm::vec2 &numbers) {
     return side * radius * Direction(std::cos(angle), std::sin(angle), 0);
 }
 
-// 2 u - 1 is exact for 24 bits. The ratio has an error of 5 u, the angle of 5 pi / 4 u, and the product adds u / 2 per
+// 2 x - 1 is exact for 24 bits. The ratio has an error of 5 u and the angle of 5 pi / 4 u. The product adds u / 2 per
 // component.
 constexpr Real concentric_share = 5 * pi / 4 * half_ulp;
 
@@ -104,8 +104,8 @@ TEST_F(AccuracySampling, OfDirectionsAndWeights) {
         const Direction point = concentric(item.numbers);
         disc.add(glm::vec3(result.weight.z, result.weight.w, 0.0F), point,
                  glm::length(point) * (concentric_share + azimuth_bound(1)), list(item));
-        // In w = 1 / (1 + q^2), the error of q is 5 u, of q^2 11 u, of the sum u and of the division 2.5 ulp. If a
-        // square overflows, the weight is 0.
+        // In w = 1 / (1 + q^2), q has an error of 5 u and q^2 of 11 u. The sum adds u, and the division adds 2.5 ulp.
+        // If a square overflows, the weight is 0.
         const Real a = item.density;
         const Real b = item.other_density;
         add_in_ulp(weight, result.weight.x, a * a / (a * a + b * b), 14.5L, 0x1p-100L, list(item));

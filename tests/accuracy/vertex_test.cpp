@@ -1,4 +1,3 @@
-// vertex_at() returns the right vertex for inexact distances along the ray.
 #include "shaders/specialization.h"
 #include "tests/accuracy/direction.h"
 #include "tests/accuracy/evaluation.h"
@@ -61,10 +60,9 @@ std::vector<Item> items(const std::vector<glm::vec4> &surfaces) {
     return items;
 }
 
-// Let u = 2^-24. For spheres, radius times normalize() has an error of 15.5 u, the product adds u and the sum u |p|.
-// For planes, normal . p
-// + offset has an error of 2 u |p| + u, the correction adds 3 u of itself, and the difference adds u |p|. If the
-// normal's length is 1 + l, the error of the height is 2 l times the height.
+// Let u = 2^-24. For spheres, radius times normalize() has an error of 15.5 u, the product adds u, and the sum adds u
+// |p|. For planes, normal . p + offset has an error of 2 u |p| + u, the correction has a relative error of 3 u, and the
+// difference adds u |p|. If the normal's length is 1 + l, the error of the height is 2 l times the height.
 Real sphere_bound(const glm::vec4 &sphere, const Direction &point) {
     return half_ulp * (16.5L * sphere.w + glm::length(point));
 }

@@ -21,7 +21,6 @@ protected:
     }
 };
 
-// Relative error in units of 2^-24.
 double largest_error(const Image &image, double exact) {
     double largest = 0.0;
     for (const float value : image.radiance)

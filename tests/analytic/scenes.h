@@ -12,7 +12,7 @@ namespace analytic {
 
 struct Pixel {
     std::uint32_t x;
-    std::uint32_t y; // row from the top
+    std::uint32_t y; // rows count from the top
     Exact exact;
 };
 

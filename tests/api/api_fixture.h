@@ -1,4 +1,3 @@
-// A context with a scene whose image is known exactly.
 #pragma once
 
 #include "tests/support/context_fixture.h"

@@ -131,8 +131,7 @@ TEST_F(PollingTest, CancellingKeepsWholeSamplesAndTheContextGoesOn) {
     }
 }
 
-// Cancelling completes a sample that some tiles have begun. The error is checked at the same counts as without, and
-// never while slices run.
+// The error is checked at the same sample counts whether or not calls are cancelled.
 TEST_F(PollingTest, ATargetIsReachedAtTheSameCount) {
     constexpr uint32_t most = 4096;
     constexpr double target = 0.1;
@@ -240,7 +239,6 @@ TEST_F(PollingTest, ACallbackMayNotPollButCancel) {
     EXPECT_EQ(pt_accumulate(context(), &info), PT_OK) << "it counts once";
 }
 
-// The validation layer would report errors.
 TEST_F(PollingTest, AContextMayBeDestroyedAtAnyTime) {
     int polls = 0;
     for (const Use &use : all_uses) {

@@ -1,4 +1,3 @@
-// pt_reload_shaders() changes kernels only on success. Samples of different kernels never mix.
 #include "lib/render/renderer.h"
 #include "lib/scene/scene.h"
 #include "tests/api/api_fixture.h"
@@ -226,7 +225,7 @@ using DriverMayLeak = __lsan::ScopedDisabler;
 struct DriverMayLeak {};
 #endif
 
-// Every driver refuses a renamed entry point. The validation layer would complain first.
+// Every driver refuses a renamed entry point. The validation layer is off, because it would report the error first.
 TEST_F(ReloadTest, KernelsThatTheDriverRefusesAreNotTaken) {
     pt::CreateSettings settings;
     settings.device = std::getenv("PT_TEST_DEVICE") ? std::getenv("PT_TEST_DEVICE") : "";

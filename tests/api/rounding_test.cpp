@@ -1,4 +1,3 @@
-// The caller's rounding mode changes no bit of an image, and every call restores it.
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"

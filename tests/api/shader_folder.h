@@ -1,4 +1,4 @@
-// An editable copy of the kernels' GLSL, removed with the test.
+// An editable copy of the kernels' GLSL.
 #pragma once
 
 #include "tests/cli/temporary_folder.h"

@@ -12,7 +12,7 @@ SAMPLES = [16, 64, 256]
 FEWER_SAMPLES = {"thousand-spheres": [4, 16, 64]}
 REFERENCES = ROOT / "tests/reference/bench"
 
-# The estimator that checks each reference. It finds large lamps by chance, and samples only lamps in the other scenes.
+# Estimators that check the references: bsdf where lamps are large enough to be found by chance, otherwise light.
 CHECKS = {
     "coursework": "bsdf",
     "coursework-motion": "bsdf",

@@ -1,4 +1,4 @@
-"""Compares images by means of blocks. The noise is measured between independent runs."""
+"""Compares means of blocks of pixels. The noise is measured between independent runs."""
 
 import math
 import statistics

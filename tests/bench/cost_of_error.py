@@ -2,8 +2,8 @@ import math
 
 
 def cost_of_error(points, error):
-    """Returns the cost at which the error is reached, and whether it is within the measured range. `points` maps sample counts to (cost,
-    error). Interpolates in logarithms, and extrapolates with the slope -1."""
+    """Returns the cost of this error, and whether it was measured and not extrapolated. `points` maps sample counts to
+    (cost, error). Interpolates in logarithms, and extrapolates with the slope -1."""
     line = [(math.log(cost), math.log(value)) for cost, value in (points[spp] for spp in sorted(points))]
     wanted = math.log(error)
     if line[-1][1] > wanted:

@@ -36,12 +36,12 @@ TRUTH_SEED, SEED = 9, 100
 class Case:
     name: str
     count: int
-    relative: float  # divided by the raw image's error
+    relative: float  # relative to the raw image's error
     absolute: float
-    gain: float  # mean square of the raw image's relative error, divided by the same of the denoised image
+    gain: float  # mean square of the raw image's relative error / mean square of the denoised image's
     light: float
-    brighter: int  # number of values above all values of both halves in the 3x3 pixels around
-    stated: float  # divided by the true error
+    brighter: int  # count of values above all values of both halves in the same 3x3 pixels
+    stated: float  # stated error / true error
     holds: bool
     is_uncertain: bool
 

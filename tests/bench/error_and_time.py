@@ -25,7 +25,7 @@ from scene_renderer import ESTIMATORS, SAMPLERS, SceneRenderer
 from table import print_table
 from pt import DeviceKind
 
-REFERENCE_FACTOR = 64  # squared errors fall as 1 / N, so the reference's error is an eighth of the smallest measured one
+REFERENCE_FACTOR = 64  # squared errors fall as 1 / N, so the reference's error is an eighth of the smallest error
 NOISE_MARGIN = 3
 
 
@@ -85,7 +85,7 @@ def image_error(image, reference):
 
 class Bench:
     def __init__(self, options):
-        # As in the program. Mesa's cache is off, because it ignores vector widths.
+        # Uses the program's settings. Mesa's cache is off, because it ignores vector widths.
         if "avx512vl" in pathlib.Path("/proc/cpuinfo").read_text(encoding="ascii", errors="replace"):
             os.environ.setdefault("LP_NATIVE_VECTOR_WIDTH", "512")
         os.environ.setdefault("MESA_SHADER_CACHE_DISABLE", "true")

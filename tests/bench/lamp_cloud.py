@@ -9,8 +9,8 @@ MATT, DARK = {"diffuse": [0.7, 0.6, 0.5]}, {"diffuse": [0.4, 0.5, 0.6]}
 
 
 class LampCloud:
-    """The columns are SphereCloud's. The total surface is constant. Without `shining` only the first lamp emits, so the same rays are
-    traced without a choice among lamps."""
+    """Has the columns of SphereCloud. The total surface does not depend on the count. Without `shining` only the first
+    lamp emits, so the same rays are traced without a choice among lamps."""
 
     def __init__(self, count, shining=True):
         rng = random.Random(SEED)

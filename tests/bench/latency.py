@@ -9,8 +9,8 @@ readback        pt_readback of the radiance into memory that was written before
 map             pt_map_image, and a read of the last pixel
 camera + 1      pt_set_camera and pt_accumulate of one sample
 picture of N    pt_set_camera, pt_accumulate of N samples, and pt_readback
-to ERROR        pt_set_camera and pt_accumulate with a target error; the samples that this took; the time of as many
-                samples without a target
+to ERROR        pt_set_camera and pt_accumulate with a target error; the number of samples; the time of as many samples
+                without a target
 """
 
 import argparse

@@ -1,4 +1,4 @@
-"""Translates scene files for Mitsuba 3. Planes become rectangles of half size 300. phong_bsdf.py has pt's material."""
+"""Translates scene files for Mitsuba 3. Planes become rectangles."""
 
 import math
 import resource

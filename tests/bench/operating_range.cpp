@@ -1,4 +1,4 @@
-// Prints how well images agree with exact values, in some minutes. There are no limits.
+// Prints how well images agree with exact values. No value fails the test.
 #include "tests/analytic/analytic_fixture.h"
 #include "tests/analytic/crop.h"
 #include "tests/analytic/scenes.h"
@@ -103,7 +103,7 @@ void store(const glm::dvec3 &from, double (&to)[3]) {
         to[i] = from[i];
 }
 
-// The area of a moving unit sphere on the image plane at distance 1, from six Gauss nodes in time.
+// Returns the area of a moving unit sphere on the image plane at distance 1, from six Gauss nodes in time.
 double area_in_motion(double distance, double way) {
     constexpr std::array<std::array<double, 2>, 3> nodes{{{0.2386191860831969, 0.4679139345726910},
                                                           {0.6612093864662645, 0.3607615730481386},
@@ -129,7 +129,7 @@ TEST_F(OperatingRange, DistanceOfASphere) {
             store({0, 0, 0}, scene.camera.position);
             store(look.direction, scene.camera.target);
             scene.camera.vertical_fov = 2.0 * std::atan(2.0 / std::sqrt(gap * (2.0 + gap)));
-            // The formula suffers from cancellation at large distances. The area equals a disc's there.
+            // At large distances the formula suffers from cancellation, but the area equals a disc's.
             const double still = gap * (2.0 + gap);
             const double area = way > 0.0 && gap < 1e3 ? area_in_motion(1 + gap, way) : std::numbers::pi / still;
             measure(gap, scene, scene.camera, {1, 1, 0, 0}, area * still / 16.0, 65536);
@@ -140,8 +140,8 @@ TEST_F(OperatingRange, DistanceOfASphere) {
 constexpr double floor_side = 0.1;
 constexpr double lamp_height = 3.1;
 
-// The mean over a square around (0, 0) on a floor of albedo 0.8. The lamp of radius 1 and emission 10 is at (3, 2.1,
-// 0). Two Gauss nodes for each direction give an error of 1e-7.
+// Returns the mean over a square around (0, 0) on a floor of albedo 0.8. The lamp of radius 1 and emission 10 is at (3,
+// 2.1, 0). Two Gauss nodes for each direction give an error of 1e-7.
 double floor_under_lamp() {
     double sum = 0.0;
     const double node = 0.5 * floor_side / std::sqrt(3.0);
@@ -185,8 +185,8 @@ TEST_F(OperatingRange, SizeOfAFloorBall) {
             ball.radius = std::pow(10.0, exponent);
             ball.center[1] = -1.0 - ball.radius;
             ball.motion[0] = motion;
-            // The value for a plane, plus the first term in the curvature. A motion m along the floor lowers it by m^2
-            // / (6 R).
+            // The expected value is a plane's, plus the first term in the curvature. A motion m of the ball lowers the
+            // floor by m^2 / (6 R) on average.
             measure(ball.radius, scene, 128, 127, 0.12151634857013521 + 0.0640719 / ball.radius);
         }
     }
@@ -214,14 +214,14 @@ TEST_F(OperatingRange, DistanceOfAWorld) {
             store(look.direction, scene.camera.target);
             scene.camera.vertical_fov = 2.0 * std::atan(1.7 / distance);
             scene.render.max_path_length = 4;
-            if (exponent == 4) // Perspective changes less than a thousandth from here on.
+            if (exponent == 4) // From here on, perspective changes the light by less than a thousandth.
                 expected = light_of(scene);
             measure(distance, scene, scene.camera, {1, 1, 0, 0}, expected, 65536);
         }
     }
 }
 
-// The albedo of the lobe is the cosine from n = 3000 on.
+// From n = 3000 on, the albedo of the lobe equals the cosine.
 TEST_F(OperatingRange, GlossinessUnderADome) {
     std::printf("\nglossiness under a uniform dome\n");
     for (const double glossiness : {1e-30, 1e-12, 1e-7, 3e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10}) {

@@ -1,4 +1,4 @@
-"""How often pt.compare calls equal light different, which changes it finds, and how many samples this takes.
+"""Measures how often pt.compare calls equal light different, which changes it finds, and how many samples this takes.
 
     PT_LIBRARY=build/lib/libpt.so PT_PROGRAM=build/bin/pt python3 tests/bench/same_light.py [--scenes NAME ...]
         [--pairs N] [--random SEED] [--changes | --samples]
@@ -33,13 +33,13 @@ DIFFICULT = ["stars-100", "stars-1000", "fairy-100", "street-60", "corner-ball",
              "glints", "night", "hidden-sun"]
 SIZE = 48, 32
 SAMPLES = 16
-# Kinds of pairs, with the second image's samples and method.
+# Maps each kind of pair to samples and method of the second image.
 KINDS = {"alike": {}, "light": {"estimator": pt.Estimator.LIGHT}, "bsdf": {"estimator": pt.Estimator.BSDF},
          "random": {"sampler": pt.Sampler.RANDOM}, "16 times": {"samples": 16 * SAMPLES}}
 RATES = (0.1, 0.01, 1e-3, 1e-6)
 CHANGES = (0.005, 0.01, 0.03)
 LARGE, MANY = (96, 48), 256
-# File, text, and its replacement.
+# Maps each change to file, text, and replacement.
 FAULTS = {"density of lamps by 3%": ("lights.glsl", "surface_of_lamp(choice.lamp)), density)",
                                      "surface_of_lamp(choice.lamp)), 1.03 * density)"),
           "density of directions by 3%": ("phong.glsl", "0.5 / PI : density)", "0.5 / PI : 1.03 * density)"),
@@ -86,7 +86,7 @@ def false_alarms(scenes, pairs):
 
 
 def darker(scene, key, share):
-    """Returns the scene with the key of the strongest material multiplied by `share`."""
+    """Returns the scene with `key` of the strongest material multiplied by 1 - `share`."""
     changed = copy.deepcopy(scene)
     strongest = max(changed["materials"].values(), key=lambda each: np.sum(each.get(key, 0)))
     strongest[key] = (np.array(strongest[key]) * (1 - share)).tolist()

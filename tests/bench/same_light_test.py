@@ -1,4 +1,4 @@
-"""Counts how often pt.compare calls equal light different. Unlike same_light.py it has few pairs and fixed seeds."""
+"""Counts how often pt.compare calls equal light different."""
 
 import unittest
 

@@ -60,7 +60,7 @@ class Stopped:
     target: float
     reached: bool
     own: float
-    brightness: float  # divided by the reference's brightness
+    brightness: float  # mean, relative to the reference's mean
     samples: float
 
 
@@ -85,7 +85,7 @@ def read(scene):
 
 
 def short(values):
-    """Rounds floats >= 0 to 16 bits, of which 8 are the exponent. The relative error is at most 2^-9."""
+    """Rounds floats >= 0 to 16 bits, 8 of them for the exponent. The relative error is at most 2^-9."""
     return ((numpy.asarray(values, numpy.float32).view(numpy.uint32) + (1 << 14)) >> 15).astype(numpy.uint16)
 
 

@@ -1,5 +1,5 @@
-// Compares films of the shipped scenes with tests/data/film_checksums.txt. A change of code may change checksums only
-// if it changes radiance.
+// Compares films of the shipped scenes with tests/data/film_checksums.txt. Other checksums are right only if radiance
+// was meant to change.
 #include "cli/scene/scene.h"
 #include "lib/base/digest.h"
 #include "tests/support/context_calls.h"
@@ -60,8 +60,8 @@ protected:
         ASSERT_EQ(pt_accumulate(on, &info), PT_OK) << pt_last_error(on);
     }
 
-    // All tiles take equal samples, then some tiles take more. Rows alone, or a film that is saved and continued, must
-    // have the same bits.
+    // First all tiles take equal samples, then some tiles take more. Rendering rows alone, or continuing a saved film,
+    // must give the same bits.
     static std::string checksums(pt_context *on, const cli::SceneFile &file, std::uint32_t sampler) {
         const pt_scene scene = file.scene();
         pt_render render = render_of(width, height, std::min(file.render.max_path_length, 4U));
@@ -121,8 +121,8 @@ std::vector<std::string> lines_of(const std::string &device) {
     return lines;
 }
 
-// A line of the file names its scene and sampler. Each way is combined with each sampler. PT_TEST_MANY runs every way
-// for every scene.
+// A line of the file names a scene and a sampler. PT_TEST_MANY renders every line with every context. By default each
+// line has one context.
 TEST_F(FilmChecksums, AreThoseOfBefore) {
     const std::vector<std::string> expected = lines_of(device_name());
     if (expected.empty())
