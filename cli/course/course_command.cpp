@@ -70,11 +70,38 @@ int grade(const std::string &folder, const std::string &device) {
     return static_cast<int>(ExitCode::done);
 }
 
+constexpr const char *next_step = "next";
+
+// A mistake may spoil the step before its own, which cannot name it.
+int check_next(CourseKernels &kernels) {
+    const std::vector<CourseStep> &steps = course_steps();
+    for (auto step = steps.begin(); step != steps.end(); ++step) {
+        const CourseVerdict verdict = check_step(kernels, *step);
+        if (verdict.is_right())
+            continue;
+        if (const auto after = std::next(step); !verdict.fitting && after != steps.end()) {
+            const CourseVerdict later = check_step(kernels, *after);
+            if (later.fitting && !later.is_right()) {
+                std::cout << report(*after, later);
+                return static_cast<int>(ExitCode::images_differ);
+            }
+        }
+        std::cout << report(*step, verdict);
+        return static_cast<int>(ExitCode::images_differ);
+    }
+    std::cout << "all steps are right\n";
+    return static_cast<int>(ExitCode::done);
+}
+
 int check(const CourseOptions &options) {
     const auto step = std::ranges::find(course_steps(), options.step, &CourseStep::name);
-    refuse_if(step == course_steps().end(), "--check " + options.step + ": the steps are " + listed(step_names()));
+    const bool is_next = options.step == next_step;
+    refuse_if(step == course_steps().end() && !is_next,
+              "--check " + options.step + ": the steps are " + listed(step_names()));
     refuse_if(options.shader_dir.empty(), "--check needs --shader-dir, the folder with the kernel");
     CourseKernels kernels(options.shader_dir, options.device);
+    if (is_next)
+        return check_next(kernels);
     const CourseVerdict verdict = check_step(kernels, *step);
     std::cout << report(*step, verdict);
     return static_cast<int>(verdict.is_right() ? ExitCode::done : ExitCode::images_differ);
@@ -102,7 +129,8 @@ void add_course_command(CLI::App &program, Run &chosen) {
     const auto [command, options] =
         add_command(program, chosen, "course", "Begin, check or grade the course", course_help, &run_course);
     add_text(command, "DIR", options.folder, "DIR", "Folder to begin in, or to grade");
-    add_text(command, "--check", options.step, "STEP", "Judge this step: " + listed(step_names()));
+    add_text(command, "--check", options.step, "STEP",
+             "Judge this step: " + listed(step_names()) + "; next: the first that is not right");
     command.add_flag("--grade", options.grades, "Judge the kernel in DIR: the points of each step");
     add_shader_dir(command, options.shader_dir);
     add_device(command, options.device);

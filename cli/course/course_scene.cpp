@@ -187,6 +187,11 @@ SceneFile disc(bool moves) {
         "");
 }
 
+double disc_cosine() {
+    const glm::dvec2 from_center = glm::dvec2(0.5, -0.5) - disc_center;
+    return std::sqrt(1.0 - glm::dot(from_center, from_center) / (disc_radius * disc_radius));
+}
+
 std::vector<Measured> disc_values(std::span<const double> coverage, double bound_factor) {
     double sum = 0.0;
     glm::dvec2 first{};

@@ -66,6 +66,9 @@ SceneFile disc(bool moves);
 inline constexpr double disc_radius = 10.3; // pixels
 inline constexpr Channels disc_emission{4.0, 0.5, 0.1};
 
+// Cosine between the normal and the ray of the picture's middle pixel. The start of the course shows it.
+double disc_cosine();
+
 struct DiscSample {
     glm::dvec2 place; // in the pixel
     double time;

@@ -91,7 +91,7 @@ std::vector<Pattern> emission_patterns() {
              {exactly(0.0), exactly(0.0), exactly(0.0), any_value}},
             {"the start",
              "Return the material's emission instead of the shape.",
-             {{0.99, 1.0}, {0.99, 1.0}, {0.99, 1.0}, any_value}}};
+             {exactly(disc_cosine()), exactly(disc_cosine()), exactly(disc_cosine()), any_value}}};
 }
 
 // ---- 2: directions --------------------------------------------------------------------------------------------------

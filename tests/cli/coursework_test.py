@@ -83,6 +83,9 @@ class Coursework(CommandLineTest):
                                                                               if name in names], [])
         self.expect(6, "course", "kernels", error="kernels: is not empty")
         self.expect(2, "course", "--check", "8", "--shader-dir", "kernels", error="--check 8: the steps are 1, 2, 3, ")
+        code, lines, _ = self.verdict("next")
+        self.assertEqual(code, 8)
+        self.assertRegex(lines[0], "^wrong: the start. ")
         self.expect(2, "course", error="DIR or --check is required")
 
     def test_grade_gives_points_for_right_steps(self):
@@ -90,6 +93,9 @@ class Coursework(CommandLineTest):
         right = self.read("kernels/pathtrace.comp")
         self.write("kernels/pathtrace.comp", right.replace("time = next_number();", "time = 0.0;"))
         done = subprocess.run([PT, "course", "--grade", self.path("kernels")], capture_output=True, text=True, check=True)
+        done_next = subprocess.run([PT, "course", "--check", "next", "--shader-dir", self.path("kernels")], capture_output=True, text=True)
+        self.assertEqual((done_next.returncode, done_next.stdout.splitlines()[0]), (8, "step 7: motion"))
+        self.assertIn("wrong: nothing moves.", done_next.stdout.splitlines()[-1])
         rows = [line.split() for line in done.stdout.splitlines()]
         self.assertEqual([row[0] for row in rows if row[-1] == "right"], ["1", "2", "3", "4", "5", "6a", "6b", "6c"])
         self.assertIn("wrong: nothing moves.", done.stdout)

@@ -51,8 +51,8 @@ class Browser(unittest.TestCase):
         cls.browser = Chromium()
         cls.addClassCleanup(cls.browser.close)
 
-    def open(self, **options):
-        view = View(self.scene, **options)
+    def open(self, what=None, **options):
+        view = View(what or self.scene, **options)
         self.addCleanup(view.close)
         self.browser.open(view.address)
         self.browser.until("document.getElementById('picture').dataset.frame > 1")
@@ -256,6 +256,25 @@ class Browser(unittest.TestCase):
         self.assertTrue(glaring[:4, :8].all())
         self.assertEqual(glaring.sum(), 32)
         self.shot("nan")
+
+    def test_a_course(self):
+        folder = self.folder / "course"
+        subprocess.run([PROGRAM, "course", folder], check=True)
+        for difference in ("1-emission", "2-directions", "3-throughput"):
+            subprocess.run(["patch", "-s", "-p1", "-d", folder, "-i", ROOT / f"shaders/coursework/{difference}.diff"], check=True)
+        kernel = folder / "pathtrace.comp"
+        kernel.write_text(kernel.read_text().replace("1.0 / (2.0 * PI)", "1.0"))
+        self.open(folder, samples=64)
+        self.browser.until("document.getElementById('file').value === 'pathtrace.comp'")
+        verdict = "document.querySelector('#course summary').textContent"
+        self.assertIn("step 3: geometric term, reflectance, throughput: wrong: missing 2 pi. ",
+                      self.browser.until(f"{verdict}.startsWith('step') && {verdict}"))
+        self.tap(120, 70)
+        self.browser.until("!document.getElementById('trace').hidden")
+        self.browser.value(choose("max_path_length", 4))
+        self.browser.value(click("trace"))
+        self.browser.until("document.querySelectorAll('#vertices li').length === 5")
+        self.shot("course")
 
     def test_traces_a_pixel(self):
         self.open(samples=64, shader_dir=self.kernels)

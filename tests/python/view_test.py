@@ -370,6 +370,22 @@ class Edits(unittest.TestCase):
                 page.send({"sampler": "halton"})
                 page.frame(lambda state: "must not be PT_SAMPLER_HALTON" in state["verdict"])
 
+    def test_a_course_is_judged(self):
+        with tempfile.TemporaryDirectory() as name:
+            with self.assertRaisesRegex(ValueError, "is no folder of `pt course`"):
+                View(name)
+            folder = pathlib.Path(name, "course")
+            subprocess.run([os.environ["PT_PROGRAM"], "course", folder], check=True)
+            with closing(View(folder, samples=4)) as view, Page(view) as page:
+                self.assertEqual(page.ask({"list": True})["files"][0], "coursework.json")
+                course = page.frame(lambda state: state["course"])["course"]
+                self.assertEqual(course["title"], "step 1: emission")
+                self.assertTrue(course["verdict"].startswith("wrong: the start. "), course)
+                self.assertIn("its disc's share of the picture", course["measured"])
+                subprocess.run(["patch", "-s", "-p1", "-d", folder, "-i", SHADERS / "coursework/1-emission.diff"], check=True)
+                course = page.frame(lambda state: state["course"] and state["course"]["title"].startswith("step 2"))["course"]
+                self.assertTrue(course["verdict"].startswith("wrong: no bounces. "), course)
+
     def test_a_save_of_comments_keeps_the_samples(self):
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name, "kernels")

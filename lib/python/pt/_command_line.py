@@ -51,3 +51,9 @@ def numbered(pattern: str, number: int | None) -> str:
     if number is None:
         return pattern
     return re.sub(r"#+(?=[^#]*$)", lambda place: str(number).zfill(len(place.group())), pattern)
+
+
+def program() -> str:
+    """PT_PROGRAM, or the installed package's, or the PATH's."""
+    packaged = pathlib.Path(__file__).parent / "bin" / "pt"
+    return os.environ.get("PT_PROGRAM") or (str(packaged) if packaged.exists() else "pt")

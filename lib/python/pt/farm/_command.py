@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
-from pt._command_line import CODE_OF_RESULT, FILES, INTERNAL, NO_DEVICE, SIGNAL, TARGET_MISSED, numbered
+from pt._command_line import CODE_OF_RESULT, FILES, INTERNAL, NO_DEVICE, SIGNAL, TARGET_MISSED, numbered, program
 from pt._enums import Sampling
 from pt._errors import Error
 from pt._film import Film
@@ -56,12 +56,6 @@ def cluster(arguments: argparse.Namespace) -> Iterator[Any]:
     with dask.LocalCluster(n_workers=count, threads_per_worker=1, processes=True, dashboard_address=None,
                       host="127.0.0.1") as local, dask.Client(local) as client:
         yield client
-
-
-def program() -> str:
-    """PT_PROGRAM, or the installed package's, or the PATH's."""
-    packaged = pathlib.Path(__file__).parents[1] / "bin" / "pt"
-    return os.environ.get("PT_PROGRAM") or (str(packaged) if packaged.exists() else "pt")
 
 
 def read_scene(arguments: argparse.Namespace, frame: int | None) -> SceneFile:

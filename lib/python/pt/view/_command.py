@@ -37,7 +37,7 @@ def parser() -> argparse.ArgumentParser:
         prog="pt-view", description="Shows a scene, particles or a film in the browser while the picture refines.",
         epilog=EPILOG, allow_abbrev=False, formatter_class=argparse.RawDescriptionHelpFormatter)
     add = command.add_argument
-    add("what", metavar="SCENE|DATA|FILM", help="a scene (.json), a film (.ptfilm), or data as of pt figure")
+    add("what", metavar="SCENE|DATA|FILM|COURSE", help="a scene (.json), a film (.ptfilm), data as of pt figure, or a folder of pt course")
     add("--size", type=typed(two("x", int), "WxH"), metavar="WxH", help="pixels; by default the scene's")
     add("--spp", type=at_least(1, int), default=65536, metavar="N", help="most samples of a pixel (default: 65536)")
     add("--device", metavar="NAME", help="what to render on, as of pt render")

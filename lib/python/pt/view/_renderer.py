@@ -16,6 +16,7 @@ from pt._pixels import Rectangle
 from pt._stats import ErrorEstimate
 from pt.view._built_in import SHARE, BuiltIn
 from pt.view._code import SHADERS, code_of
+from pt.view._course import Course
 from pt.view._frame import LAYERS, OF_SAMPLES, Frame, facts_of, faults_of, name_of
 from pt.view._rejected import rejected_samples
 from pt.view._source import Shown, Source
@@ -32,11 +33,13 @@ class Renderer:
     """Calls published() with each frame, on the rendering thread."""
 
     def __init__(self, source: Source, published: Callable[[Frame], None], *, shader_dir: pathlib.Path | None = None,
-                 device: str | None = None, most: int = 65536, size: tuple[int, int] | None = None) -> None:
+                 device: str | None = None, most: int = 65536, size: tuple[int, int] | None = None,
+                 is_course: bool = False) -> None:
         self._source, self._published, self._device, self._most = source, published, device, most
         self._shader_dir = shader_dir
         self._built_in: BuiltIn | None = None
         self._tracer = Tracer(device, shader_dir)
+        self._course = Course(shader_dir, device, lambda: self.change(judged=True)) if shader_dir and is_course else None
         self._begins = True
         self._context: Context | None = None
         self._faults: dict[str, str] = {}
@@ -58,6 +61,8 @@ class Renderer:
         self._signatures = self._look()
         self._code = {path: code_of(path) for path in self._signatures if path.suffix in CODE}
         self._publish()
+        if self._course:
+            self._course.check()
         self._thread = threading.Thread(target=self._run, name="pt-view", daemon=True)
         self._thread.start()
 
@@ -78,6 +83,8 @@ class Renderer:
             self._condition.notify()
         self._thread.join()
         self._tracer.close()
+        if self._course:
+            self._course.close()
 
     def trace(self, x: int, y: int, sample: int) -> dict[str, Any]:
         camera, settings = self._camera, self._settings
@@ -238,6 +245,8 @@ class Renderer:
                 self._faults["scene"] = self._source.explained(error)
                 self._publish()
         if any(path.suffix in SHADERS for path in edited.difference(self._shown.files)) and self._context:
+            if self._course:
+                self._course.check()
             try:
                 self._context.reload_shaders()
                 self._faults.pop("shaders", None)
@@ -288,6 +297,7 @@ class Renderer:
                     "first_camera": self._shown.camera._section(), "display": self._shown.display,
                     "max_path_length": self._settings.max_path_length, "sampler": name_of(self._settings.sampler),
                     "estimator": name_of(self._settings.estimator), "revision": self._revision,
+                    "course": self._course.state if self._course else None, "is_course": self._course is not None,
                     "verdict": self._built_in.verdict if self._built_in else "",
                     "faults": [fault for text in self._faults.values() for fault in faults_of(text)]}, pixels, values, spoilt)
 

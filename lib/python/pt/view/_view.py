@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import os
 import pathlib
 from collections.abc import Callable
 
@@ -18,7 +19,8 @@ from pt.view._still import Still
 class View:
     """Shows a scene file, particles, or a film in a browser page until it is closed.
 
-    what         name of a file, or a Film. The program pt (from PT_PROGRAM or the PATH) reads scenes
+    what         name of a file, or a Film, or the name of a folder of `pt course`, whose kernel the program pt (from
+                 PT_PROGRAM or the PATH) judges after each save
     size         width and height in pixels; None: the scene's
     samples      most samples of a pixel
     device       as in Context
@@ -34,8 +36,14 @@ class View:
     def __init__(self, what: Path | Film, *, size: tuple[int, int] | None = None, samples: int = 65536,
                  device: str | None = None, shader_dir: Path | None = None, port: int = 0,
                  options: Options | None = None, address_file: Path | None = None) -> None:
-        source = what if isinstance(what, Film) else source_of(pathlib.Path(what), options or Options())
         folder = None if shader_dir is None else pathlib.Path(shader_dir).resolve()
+        is_course = False
+        if not isinstance(what, Film) and os.path.isdir(what):
+            folder, is_course = pathlib.Path(what).resolve(), True
+            what = folder / "scenes" / "coursework.json"
+            if not what.exists():
+                raise ValueError(f"{folder}: is no folder of `pt course`")
+        source = what if isinstance(what, Film) else source_of(pathlib.Path(what), options or Options())
         scene = None if isinstance(source, Film) else source.path
 
         def files() -> dict[str, pathlib.Path]:
@@ -53,7 +61,7 @@ class View:
                 self._show = Still(source, name, self._server.published)
             else:
                 self._show = Renderer(source, self._server.published, shader_dir=folder, device=device, most=samples,
-                                      size=size)
+                                      size=size, is_course=is_course)
         except (Error, ValueError, OSError):
             self._server.close()
             raise

@@ -113,6 +113,13 @@ export class Editor {
     this.send({open: name});
   }
 
+  judge(course) {
+    const {title, verdict, measured} = course ?? {title: "judging ...", verdict: "", measured: ""};
+    $("course").hidden = false;
+    $("course").firstChild.textContent = verdict ? `${title}: ${verdict}` : title;
+    $("course").lastChild.textContent = measured;
+  }
+
   // Another program may have saved the file.
   look(revision) {
     if (this.revision !== undefined && this.revision !== revision && !this.isEdited())

@@ -69,7 +69,7 @@ export class PathView {
 function row(title, facts) {
   const item = document.createElement("li");
   item.append(title);
-  for (const [name, numbers] of Object.entries(facts)) {
+  for (const [name, numbers] of Object.entries(facts).filter(fact => fact[1].length)) {
     const line = document.createElement("div"), value = Object.assign(document.createElement("b"), {textContent: shown(numbers)});
     line.append(`${name} `, value);
     item.append(line);

@@ -108,6 +108,8 @@ function tell() {
     .filter(Boolean).join("\n");
   editor?.tell(state.faults);
   editor?.look(state.revision);
+  if (state.is_course)
+    editor?.judge(state.course);
   path.look(state);
   chart();
 }
