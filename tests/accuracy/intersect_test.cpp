@@ -19,7 +19,7 @@ constexpr float leaving_inside = 2.0F;
 
 struct Item {
     glm::vec3 center; // relative to the ray's start, or a plane's normal
-    float radius;     // or a plane's height, the constant of its equation
+    float radius;     // or the start's height above a plane
     glm::vec3 direction;
     float start;
 };

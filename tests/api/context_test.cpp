@@ -220,7 +220,6 @@ TEST_F(ApiTest, TheErrorIsKnownFrom16Samples) {
     expect_image(116);
 }
 
-// Exceptions must not cross the C boundary.
 TEST_F(ApiTest, ProgressThatThrowsIsAnErrorThatKeepsTheFilmWhole) {
     set_all();
     const pt_accumulate_info info{sizeof info,

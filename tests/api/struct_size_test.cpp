@@ -1,4 +1,3 @@
-// Structs may grow: fields that one side does not know count as zeros.
 #include "tests/api/api_fixture.h"
 
 #include <algorithm>

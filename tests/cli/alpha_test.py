@@ -7,7 +7,7 @@ from command_line import PT, CommandLineTest, read_exr_attributes, read_exr_chan
 
 
 def spheres(count, **further):
-    """Balls at places of a linear congruential generator (Numerical Recipes, section 7.1)."""
+    """Places are from a linear congruential generator (Numerical Recipes, section 7.1)."""
     state, items = 1, []
     for _ in range(count):
         numbers = []
@@ -25,8 +25,8 @@ def scene(items, **camera):
                        "spheres": items + [{"center": [3, 5, 0], "radius": 1, "material": "lamp"}]})
 
 
-# A separate kernel, which traced the camera rays of the same samples again, gave these alphas on llvmpipe. The first
-# digits of SHA-256 of the channel's floats.
+# Each row ends with the first digits of the alpha channel's SHA-256 on llvmpipe. An independent kernel that only traces
+# camera rays gave the same alphas.
 RECORDED = (
     ("list, Sobol", scene(spheres(5)), ("--spp", "7"), "3cfc379614fa2483"),
     ("list, motion, lens, Halton", scene(spheres(5, motion=[1.5, -1, 0]), aperture=0.5, focus=8),

@@ -1,4 +1,4 @@
-"""Renderings that are killed at any moment and resumed on any machine must end with the same bytes. PT_TEST_KILLS is
+"""A rendering that is killed at any moment and resumed on any machine must end with the same bytes. PT_TEST_KILLS is
 the number of kills (default: 4)."""
 
 import json
@@ -30,7 +30,7 @@ class KeptRender(CommandLineTest):
         return found
 
     def samples_kept(self, name):
-        """Returns 0 without a checkpoint. A damaged checkpoint fails the test."""
+        """Returns 0 without a checkpoint."""
         if not os.path.exists(self.path(name)):
             return 0
         self.expect(0, "merge", name, "--stats", "-", "-q")
@@ -79,7 +79,7 @@ class KilledRender(KeptRender):
         self.assertIn('"fraction"', process.stderr.readline())
         process.send_signal(signal.SIGTERM)
         errors = process.communicate(timeout=PATIENCE)[1]
-        self.assertIn(process.returncode, (0, 143), errors)  # 0 if it ended before the signal
+        self.assertIn(process.returncode, (0, 143), errors)  # 0 if the program ended before the signal
         self.assertEqual("--resume continues from c.ptfilm" in errors, process.returncode == 143)
         self.assertGreater(self.samples_kept("c.ptfilm"), 0)
         self.expect(0, *options, "--checkpoint", "c.ptfilm", "--resume")
@@ -180,7 +180,7 @@ class Resume(CommandLineTest):
         self.assertEqual(self.contents("a.png"), self.contents("whole.png"))
 
     def test_a_crop_goes_on_too(self):
-        """A checkpoint has whole rows, so another crop may show other columns of it. Other rows need another film."""
+        """A checkpoint has whole rows, so it can be resumed with other columns, but not with other rows."""
         crop = ["--checkpoint", "crop.ptfilm", "--crop"]
         self.expect(0, *self.small, "-o", "half.png", "--spp", "12", *crop, "2,3,5,4")
         for part in "2,3,5,4", "0,3,16,4":

@@ -17,7 +17,7 @@ PT, FAKE_PT = os.environ["PT_PROGRAM"], os.environ["PT_FAKE_PROGRAM"]
 SCENES = str(pathlib.Path(__file__).resolve().parents[2] / "cli/scenes")
 COURSEWORK = os.path.join(SCENES, "coursework-diffuse.json")
 
-# A program counts as hung after this time, in seconds. All expected events come much sooner.
+# A program counts as hung after this time, in seconds.
 PATIENCE = 600
 
 RESULT = {"INVALID_ARGUMENT": -1, "INVALID_SCENE": -2, "INVALID_STATE": -3, "UNSUPPORTED": -4, "NO_DEVICE": -5,
@@ -33,7 +33,7 @@ def npy(type_code, shape, numbers, version=1):
 
 
 def default_signals():
-    """A shell's background jobs inherit an ignored SIGINT, which the program would keep ignored."""
+    """Shells start background jobs with SIGINT ignored. The program would inherit this."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, signal.SIG_DFL)
 

@@ -232,7 +232,7 @@ class RealDevice(CommandLineTest):
 
 class Warnings(CommandLineTest):
     def warnings(self, *options, scene="s.json", **environment):
-        """With --stats, stderr has each warning once. With -q stderr is empty."""
+        """Returns the warnings. With --stats, stderr has each warning once. With -q stderr is empty."""
         arguments = ["render", scene, "-o", "a.png", "--size", "8x4", "--stats", "stats.json", *options]
         self.expect(0, *arguments, **environment)
         told = json.loads(self.read("stats.json"))["warnings"]

@@ -95,7 +95,7 @@ class RealDevice(CommandLineTest):
     program = PT
 
     def test_what_is_not_finite_exceeds_every_limit(self):
-        # With fewer than 9 samples, the second part is empty.
+        # The estimate uses two parts of the samples. With fewer than 9 samples, the second part is empty.
         self.expect(0, "render", COURSEWORK, *SIZE, "-o", "e.exr", "--layers", "standard-error")
         compare = ("compare", "e.exr", "e.exr", "--layer", "standard_error")
         self.expect(0, *compare)
@@ -132,7 +132,7 @@ class LightOnDevice(CommandLineTest):
             self.assertLess(verdict["regions"][0]["difference"][0], 0)
             width, height, rows = read_png(self.path("d.png"))
             self.assertEqual((width, height), (64, 48))
-            self.assertEqual(rows[47][2::3], [255] * 64)  # The floor is darker than the limit, which is blue.
+            self.assertEqual(rows[47][2::3], [255] * 64)  # The floor is darker than the limit, so it is shown in blue.
             self.assertLess(max(rows[47][0::3]), 255)
 
     def test_what_cannot_be_tested(self):

@@ -1,5 +1,4 @@
-"""Tests the course of shaders/COURSEWORK.md: each difference applies to the step before, its kernel is right by `pt course`, and
-planted mistakes are found by name."""
+"""Tests the course of shaders/COURSEWORK.md."""
 
 import os
 import subprocess
@@ -8,10 +7,10 @@ from command_line import PT, SCENES, CommandLineTest
 
 COURSE = os.path.join(SCENES, "..", "..", "shaders", "coursework")
 DIFFERENCES = ("1-emission", "2-directions", "3-throughput", "4-numbers", "5-filter", "6a-cosine", "6b-lamps", "7-motion")
-# Steps that a difference makes right.
+# Steps that must be right after a difference. By default this is the difference's own step.
 STEPS = {"6b-lamps": ("6b", "6c")}
 
-# The difference, the right code, the wrong code, and the mistake's name in the verdict.
+# Each row has the difference, the right code, the wrong code, and the mistake's name in the verdict.
 MISTAKES = (
     ("1-emission", "{ return material.emission; }", "{ return pow(material.emission, vec3(1.0 / 2.2)); }", "gamma twice"),
     ("2-directions", "return dot(direction, normal) < 0.0 ? -direction : direction;",
@@ -34,7 +33,7 @@ MISTAKES = (
     ("6b-lamps", "surface == lamp)", "surface < 99u)", "no shadows"),
     ("7-motion", "time = next_number();", "time = 0.5;", "one time for all samples"),
 )
-# An error that no pattern predicts.
+# A mistake whose error no pattern predicts.
 UNKNOWN = ("3-throughput", "material.diffuse / PI +", "material.diffuse.bgr / 2.2 +")
 
 
@@ -46,7 +45,7 @@ class Coursework(CommandLineTest):
         self.expect(0, "course", "kernels")
 
     def each_kernel(self, apply):
-        """Yields each difference after it was applied to the kernel."""
+        """Applies one difference after another, and calls `apply` after each one."""
         for difference in DIFFERENCES:
             subprocess.run(["patch", "-s", "--fuzz=0", "-p1", "-d", self.path("kernels"), "-i",
                             os.path.join(COURSE, f"{difference}.diff")], check=True)

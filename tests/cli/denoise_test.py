@@ -1,5 +1,3 @@
-"""Tests `pt render --denoise` and `pt denoise`. OPEN_IMAGE_DENOISE names a stand-in for Open Image Denoise."""
-
 import json
 import os
 import struct

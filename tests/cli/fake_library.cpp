@@ -222,7 +222,7 @@ pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *info) {
 }
 
 // Red increases from 0 to 1 to the right, and green downwards. Blue is 2, but with FAKE_PT_FAIL=split:1 the number of
-// calls changes blue. Other quantities have the pixel's position as the value. Objects are numbered row by row.
+// calls changes blue. In other quantities, a pixel's value is its position. Objects are numbered row by row.
 pt_result pt_readback(pt_context *context, const pt_image *image) {
     const pt_render &render = context->render;
     auto *object = static_cast<std::uint32_t *>(image->data);
@@ -277,7 +277,6 @@ pt_result pt_add_film(pt_context *context, const void *data, std::uint64_t size_
     return call(context, "add_film");
 }
 
-// The table has one function. The error is far below the bound, or above it with FAKE_PT_FAIL=accuracy_bound:1.
 pt_result pt_get_accuracy(pt_context *context, pt_function_accuracy *rows, std::uint32_t *count) {
     if (rows != nullptr && *count > 0) {
         pt_function_accuracy row{};

@@ -63,7 +63,7 @@ TEST(AtomicFile, KeepsPermissionsAndLinks) {
     EXPECT_EQ(status.st_mode & 0777, 0640U);
 }
 
-// protected_symlinks in proc_sys_fs(5) lists these cases. The test's links of root get another owner.
+// Covers the cases of protected_symlinks in proc_sys_fs(5). The test gives its links another owner.
 TEST(AtomicFile, FollowsNoOneElsesLinksWhereEverybodyMayWrite) {
     if (geteuid() != 0)
         GTEST_SKIP() << "only root can make links that belong to others";

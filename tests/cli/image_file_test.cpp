@@ -130,7 +130,7 @@ TEST(ImageFile, PngKeepsALargePicture) {
 TEST(ImageFile, PngOfOtherProgramsIsRead) {
     const TemporaryFolder folder;
     const std::string path = folder.file("a.png");
-    const std::array<std::uint16_t, 8> words{0, 1, 300, 65535, 256, 40000, 65534, 65535}; // or two opaque pixels
+    const std::array<std::uint16_t, 8> words{0, 1, 300, 65535, 256, 40000, 65534, 65535}; // also two opaque RGBA pixels
     for (const auto type : {OIIO::TypeDesc::UINT8, OIIO::TypeDesc::UINT16}) {
         for (const int channels : {1, 3, 4}) {
             const auto output = OIIO::ImageOutput::create(path);

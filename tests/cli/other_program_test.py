@@ -1,5 +1,3 @@
-"""`pt NAME` must run `pt-NAME` from the PATH, and nothing else."""
-
 import os
 import subprocess
 

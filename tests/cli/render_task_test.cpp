@@ -1,4 +1,3 @@
-// Tests the precedence of command line, scene file and defaults, and which of them errors blame.
 #include "cli/render/render_task.h"
 
 #include <gtest/gtest.h>

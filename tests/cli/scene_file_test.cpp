@@ -281,7 +281,7 @@ TEST(SceneFile, NumbersHaveLimits) {
     EXPECT_NE(refusal(R"({"render":{"seed":-1}})"), "");
 }
 
-// Zero means the default in pt.h, but not in a file.
+// In pt.h zero means the default.
 TEST(SceneFile, ZerosAreNotDefaults) {
     const auto camera = [](const std::string &member) {
         return refusal(R"({"camera":{"position":[0,0,0],"look_at":[0,0,1],)" + member + "}}");
@@ -289,7 +289,7 @@ TEST(SceneFile, ZerosAreNotDefaults) {
     EXPECT_EQ(camera(R"("vertical_fov":0)"),
               "1: camera.vertical_fov: must be a number from 6e-07 to below 180 degrees, is 0");
     EXPECT_NE(camera(R"("vertical_fov":180)"), "");
-    EXPECT_NE(camera(R"("vertical_fov":5e-7)"), ""); // This is 8.7e-9 radians, below the library's bound.
+    EXPECT_NE(camera(R"("vertical_fov":5e-7)"), ""); // 8.7e-9 radians is below the library's bound.
     EXPECT_EQ(camera(R"("vertical_fov":6e-7)"), "");
     EXPECT_EQ(camera(R"("vertical_fov":179.9)"), "");
     EXPECT_EQ(camera(R"("up":[0,0,0])"), "1: camera.up: must not be [0, 0, 0]");

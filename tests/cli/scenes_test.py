@@ -1,5 +1,3 @@
-"""Every scene must state its purpose, be complete, and render without unexpected warnings."""
-
 import json
 import os
 import pathlib

@@ -1,4 +1,4 @@
-"""`pt schema` and the program must agree on scenes that are changed in all places."""
+"""The schema and the program must accept the same scenes. Scenes are changed at every place."""
 
 import copy
 import json

@@ -1,4 +1,3 @@
-// Tests the verdict and report of cli/selftest. selftest_test.py tests the scenes.
 #include "cli/selftest/selftest.h"
 
 #include <gtest/gtest.h>
@@ -86,13 +85,13 @@ TEST(SelftestScene, RecedingLampByQuadrature) {
     EXPECT_NEAR(scene.expected, sum / steps, 1e-8);
 }
 
-// Integrates light that two methods find: one sample of a lamp, and some directions. The power heuristic gives the
-// weights.
+// Integrates light that is found by one sample of a lamp and by some directions. The power heuristic gives the weights.
 class TwoWays {
 public:
     explicit TwoWays(int directions) : directions_(directions) {}
 
-    // Adds a part of the integral, with the densities of the lamp's sample and of one direction at this point.
+    // Adds a part of the integral. `sample_density` belongs to the lamp's sample, and `direction_density` to one
+    // direction.
     void add(double part, double measure, double sample_density, double direction_density) {
         const double a = sample_density;
         const double b = directions_ * direction_density;
@@ -138,8 +137,8 @@ TwoWays light_of_lamps(int count, double polar, double sine, int directions) {
     return light;
 }
 
-// A lamp of power 1 lights a ceiling of albedo 20 at height 6.5 above it. The integration variable is the fraction of
-// the lamp's directions.
+// A lamp of power 1 lights a ceiling of albedo 20 at height 6.5 above it. The integral runs over the fraction of the
+// lamp's directions.
 TwoWays light_of_glow() {
     constexpr int steps = 1000000;
     constexpr double height = 6.5;

@@ -50,7 +50,7 @@ protected:
         EXPECT_FALSE(watch.changed(milliseconds{0}));
     }
 
-    // The third call, at the latest, looks at the files. The call after it finds that they no longer change.
+    // The third call, at the latest, looks at the files. The next call finds that they no longer change.
     static void expect_nothing(SourceWatch &watch) {
         for (int call = 0; call < 6; ++call)
             EXPECT_FALSE(watch.changed(milliseconds{100}));

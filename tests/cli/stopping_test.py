@@ -14,7 +14,7 @@ class ExitCodes(CommandLineTest):
         kept = ("--checkpoint", "c.ptfilm")
         not_kept = ("--checkpoint", "none/c.ptfilm")
         table = [
-            # options, exit code, reason for the end
+            # Rows: options, exit code, reason for the end.
             (("--spp", "20"), 0, "samples"),
             (("--spp", "20", *kept), 0, "samples"),
             (("--spp", "20", *not_kept), 0, "samples"),
@@ -136,8 +136,8 @@ KEYS = [name + end for name in ("rmse", "relative_rmse") for end in ("", "_low",
 
 
 class TargetError(CommandLineTest):
-    """The relative error is 0.5 / N, with bounds of half and twice this error. The absolute error is twice the relative one. Below 16
-    samples the error is unknown."""
+    """The fake library states a relative error of 0.5 / N, and bounds of half and twice this error. The absolute error
+    is twice the relative error. Below 16 samples the error is unknown."""
 
     def render(self, *options, code=0):
         arguments = ["render", COURSEWORK, "-o", "a.png", "--size", "4x3", "--stats", "s.json"]

@@ -1,5 +1,3 @@
-"""The program must refuse special files at once, and must not print control characters."""
-
 import json
 import os
 import shutil
@@ -136,7 +134,7 @@ class Compiler(CommandLineTest):
         self.assertNotRegex(self.errors, "[\x07\x1b\u202e]")
 
     def test_a_signal_ends_it_at_once(self):
-        """The shader has 2^60 includes, so reading never ends."""
+        """The shader has 2^60 includes, so reading it never ends."""
         for i in range(60):
             self.write(f"shaders/{i}.glsl", f'#include "{i + 1}.glsl"\n' * 2)
         self.write("shaders/60.glsl", "\n")

@@ -111,7 +111,7 @@ class Scenes(WatchTest):
         self.expect(2, "render", "-", "--watch", "-o", "a.png", error="--watch needs a file")
 
     def test_a_change_stops_the_rendering(self):
-        pt = self.watch("--progress", "json", "--spp", "1000000", FAKE_PT_SAMPLE_MS=200)  # would take two days
+        pt = self.watch("--progress", "json", "--spp", "1000000", FAKE_PT_SAMPLE_MS=200)  # takes two days
         pt.line_with('"fraction"')
         self.write("s.json", "{")
         pt.line_with("syntax error")

@@ -191,9 +191,9 @@ class Steps:
         return fast, slow
 
     def subproject(self):
-        """add_subdirectory() with objects of the library's own build (reuse.py)."""
+        """Tests add_subdirectory(). Objects come from the library's own build (reuse.py)."""
         folder = self.folder("subproject")
-        # The library sets optimization only for itself, and only if the outer project chooses no build type.
+        # The library sets optimization only for itself, and only if the outer project has no build type.
         for number, (settings, expected) in enumerate((
                 ([], ({"lib"}, {"tests"})),
                 (["-DCMAKE_BUILD_TYPE=Debug"], (set(), {"lib", "tests"})),

@@ -13,7 +13,8 @@ words = sys.argv[4:]
 
 
 def plain(text, build, output):
-    """Removes what may differ between builds: folders, launchers, warnings, and link-time optimisation that -fno-lto turns off."""
+    """Removes what may differ between builds: folders, launchers, warnings, and link-time optimization that -fno-lto
+    turns off."""
     text = text.replace(output, "OUT").replace(str(build), "BUILD").replace("\\", "").replace('"', "").replace("'", "")
     before, off, after = text.rpartition(" -fno-lto")
     text = re.sub(r" -f(no-fat-lto-objects|lto(=\S+)?)(?= )", "", f"{before} ") + off + after

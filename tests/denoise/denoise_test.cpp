@@ -1,4 +1,4 @@
-// Compares stated errors of denoised images with true errors. The filter is fake_open_image_denoise.cpp.
+// The filter is fake_open_image_denoise.cpp.
 #include "tests/support/statistics.h"
 
 #include <pt/denoise.h>
@@ -28,7 +28,7 @@ double limit_at(std::size_t index) {
     return 0.6 + 0.4 * static_cast<double>(index / 3 % width / 12 % 2) + 0.1 * static_cast<double>(index % 3);
 }
 
-// Values have an exponential distribution, which is skewed as light often is. `deviation` is relative to the mean.
+// The values' distribution is exponential, because light is often skewed. `deviation` is relative to the mean.
 Pixels noisy(std::uint64_t seed, double deviation) {
     std::mt19937_64 random(seed);
     Pixels pixels(value_count);
@@ -88,7 +88,8 @@ struct Denoising {
         });
     }
 
-    // The estimate of the square: rmse^2 lies 1.28 standard errors above it, and rmse_low^2 lies 1.96 below.
+    // Estimates the square of the error. rmse^2 lies 1.28 standard errors above this estimate, and rmse_low^2 lies 1.96
+    // below.
     double stated_square() const {
         EXPECT_GT(error.rmse_low, 0.0);
         return (1.96 * std::pow(error.rmse, 2) + 1.28 * std::pow(error.rmse_low, 2)) / (1.96 + 1.28);
@@ -125,8 +126,8 @@ Stated over_seeds(const char *wish, double deviation, int seed_count = 6) {
     return stated;
 }
 
-// A filter that does nothing has no bias. With other filters, the limits depend on both halves, so the stated square is
-// up to a quarter too small. Negative estimates of errors count as 0, so the square is less than a third too large.
+// The limits of denoised values depend on both halves, so the stated square is up to a quarter too small. Negative
+// estimates of errors count as 0, which makes the square up to a third too large.
 TEST(Denoise, StatesTheSquareOfItsError) {
     for (const char *wish : {"identity", "", "shift", "darken"}) {
         const Stated stated = over_seeds(wish, much_noise, 24);
@@ -145,8 +146,8 @@ TEST(Denoise, StatesTheSquareOfItsError) {
 }
 
 // One of 300 values in a half is brighter by 60. The filter cuts it to 4, which removes 0.2 from the mean. Each image
-// has 92,160 / 300^2 = 1 value with such light in both halves. Products of single values would show the loss in only
-// half of the images, and far too large.
+// has 92,160 / 300^2 = 1 value with such light in both halves. Products of single values would state far too much loss
+// in half of the images, and none in the others.
 TEST(Denoise, StatesRareLightThatItsFilterTakesAway) {
     constexpr double probability = 1.0 / 300;
     constexpr double light = 60.0;
@@ -186,9 +187,9 @@ struct Level {
 };
 
 // The image has stripes of two levels. On stripes of the first level, each half has a mark at every fifth place with
-// probability 1/2. Blurring is wrong at marks. If one half has the mark, the limits allow blurring, and if both have
-// it, they forbid blurring. Blurring is right elsewhere, so it would reduce relative errors where marks are bright, and
-// absolute errors where marks are dark.
+// probability 1/2. Blurring is wrong at marks. The limits allow blurring if one half has the mark, and forbid blurring
+// if both have it. Elsewhere blurring is right, so it would reduce relative errors where marks are bright, and absolute
+// errors where marks are dark.
 TEST(Denoise, KeepsMarksThatHalvesHaveByChance) {
     constexpr double mark = 0.8;
     const Level cases[][2] = {{{1, 0.05}, {1, 0.05}}, {{100, 0.005}, {1, 0.5}}, {{0.5, 0.005}, {100, 0.05}}};
@@ -258,8 +259,8 @@ TEST(Denoise, HasNoSeams) {
     }
 }
 
-// Noise increases downwards from 0. Two standard errors of a half are 2 sqrt(2) s. If a neighbor has a larger s, s is
-// raised by up to a factor of 16.
+// The noise increases downwards from 0. If s is the standard error of the mean, two standard errors of a half are 2
+// sqrt(2) s. A neighbor with more noise may raise s by up to a factor of 16.
 TEST(Denoise, MovesNoValueBeyondWhatHalvesSupport) {
     Pixels halves[2] = {noisy(1, 1.0), noisy(2, 1.0)};
     for (std::size_t i = 0; i < value_count; ++i) {
@@ -296,7 +297,6 @@ TEST(Denoise, MovesNoValueBeyondWhatHalvesSupport) {
     EXPECT_GT(moved, value_count / 2);
 }
 
-// One filter darkens the whole image. The other removes rare light.
 TEST(Denoise, KeepsTheMeanWithinItsNoise) {
     for (const char *wish : {"darken", "cut"}) {
         Denoising denoising(3, 0.2);
@@ -315,7 +315,7 @@ TEST(Denoise, KeepsTheMeanWithinItsNoise) {
 }
 
 // A single value that differs between the halves may be a lamp or noise. All other values of its tile and of the
-// neighboring tiles agree.
+// neighboring tiles are equal in both halves.
 TEST(Denoise, IsNotPersuadedByOnePixel) {
     Pixels halves[2] = {Pixels(value_count, 1.0F), Pixels(value_count, 1.0F)};
     for (std::size_t y = 4; y < height; y += 40)
@@ -327,8 +327,8 @@ TEST(Denoise, IsNotPersuadedByOnePixel) {
         ASSERT_EQ(denoising.denoised[i], 0.5F * (halves[0][i] + halves[1][i])) << i;
 }
 
-// The filter spreads a lamp by two pixels. There, errors relative to the raw image would be a million times the raw
-// image's. Errors relative to the filtered image would seem small.
+// The filter spreads a lamp by two pixels. Relative to the raw image, this makes errors a million times as large.
+// Relative to the filtered image they would seem small.
 TEST(Denoise, DoesNotSpreadALamp) {
     constexpr std::size_t first = 64;
     constexpr std::size_t end = 68;
@@ -377,7 +377,7 @@ TEST(Denoise, IsUncertainOfFewTiles) {
     EXPECT_EQ(uneven.error.uncertain, std::uint32_t{PT_UNCERTAIN_RMSE} | PT_UNCERTAIN_RELATIVE_RMSE);
 }
 
-// Squares of bounds lie 1.96 standard errors from the mean square, and rmse lies 1.28 above it.
+// Squares of bounds lie 1.96 standard errors from the mean square. rmse^2 lies 1.28 above it.
 TEST(Denoise, BoundsOfUncertainErrorsAreTwiceAsWide) {
     for (const std::size_t tiles : {6, 60}) {
         Denoising denoising(0, 1e-3);

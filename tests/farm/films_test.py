@@ -1,5 +1,3 @@
-"""pt.farm must give the bytes of a Context of this process, even if workers fail."""
-
 import dataclasses
 import os
 import re
@@ -58,7 +56,8 @@ class Unreadable:
 
 
 def faulty(name, part, codecs):
-    """Damages every second one of a worker's first films. Workers begin at different places in FAULTS, so a few parts show all faults."""
+    """Damages every second one of a worker's first films. Workers start at different places in FAULTS, so that a few
+    parts show all faults."""
     worker = distributed.get_worker()
     worker.films = getattr(worker, "films", 0) + 1
     time.sleep(0.03)
@@ -93,7 +92,7 @@ def with_values(**values):
     return lambda name, part, film: dataclasses.replace(film, **values)
 
 
-FAULTS = {  # message: fault
+FAULTS = {  # Maps messages to faults.
     "LookupError: a mistake of this task": raising,
     "a part's bytes are damaged": lambda name, part, film: dataclasses.replace(film, data=film.data[:len(film.data) // 2]),
     "its checksum does not match": changed,
@@ -214,12 +213,12 @@ class Farm(unittest.TestCase):
             mixed.film + alone.film
         self.assertTrue((mixed.film.readback(pt.Quantity.SAMPLE_COUNT) == samples).all())
         one, both = whole(samples).readback(), mixed.film.readback()
-        # Rounding may decide which surface a path hits.
+        # Rounding may change which surface a path hits.
         self.assertLess(abs(both - one).mean(), 1e-3 * one.mean())
 
     def test_target_error(self):
         one = whole(4096, ERROR)
-        self.assertGreater(len(one.tiles), 1)  # or nothing is compared
+        self.assertGreater(len(one.tiles), 1)  # With one tile, nothing would be compared.
         options = dataclasses.replace(QUICK, patience=60.0)
         found = self.farm(4096, target_error=ERROR, task=render_part, options=options)
         self.assertEqual(found.progress.ended_by, "error")

@@ -10,16 +10,16 @@
 namespace {
 
 thread_local bool in_library = false;
-std::size_t allocation_count = 0; // of one thread
+std::size_t allocation_count = 0; // count of one thread
 std::size_t failing_number = 0;
 bool failing_goes_on = false;
 bool failed = false;
 bool threw = false;
-std::atomic<long> live{0}; // atomic: a driver's thread may free the library's memory
+std::atomic<long> live{0}; // atomic: a driver's thread may free memory of the library
 std::atomic<long> live_bytes{0};
 long most_bytes = 0;
 
-// Stands before each allocation. Its own size keeps the allocation aligned.
+// Precedes the memory of each allocation, which it keeps aligned.
 struct alignas(std::max_align_t) Header {
     std::size_t size;
     bool of_library;

@@ -13,7 +13,7 @@ public:
     InLibrary &operator=(const InLibrary &) = delete;
 };
 
-// Allocations by Vulkan or callbacks are not the library's. None of them fails while this object exists.
+// Allocations by Vulkan or callbacks are not the library's. They do not fail while this object exists.
 class OutOfLibrary {
 public:
     OutOfLibrary();
@@ -28,8 +28,8 @@ private:
 // `number` counts from 1, and 0 stops failures. With `goes_on`, all later allocations fail too.
 void fail_allocation(std::size_t number, bool goes_on);
 
-// Whether the chosen allocation was reached, and whether it throws. Without a throw, the library may go on without the
-// memory.
+// Whether the chosen allocation was reached, and whether it throws. If it does not throw, the library may go on without
+// the memory.
 bool allocation_failed();
 bool allocation_threw();
 

@@ -1,4 +1,4 @@
-// Fails every allocation once. The call must fail as pt.h says, without changes or leaks.
+// Fails every allocation once.
 #include "tests/faults/allocations.h"
 #include "tests/faults/sweep.h"
 
@@ -27,7 +27,7 @@ public:
         if (!failed)
             return false;
         ++failures_;
-        // If the allocation does not throw, the call may succeed without the memory.
+        // A call may succeed without memory from an allocation that does not throw.
         if (threw && step != "pt_destroy") {
             EXPECT_EQ(pt_result_name(result), std::string("PT_ERROR_OUT_OF_HOST_MEMORY"))
                 << step << ", allocation " << number_ << ": " << message;
@@ -39,7 +39,7 @@ public:
 private:
     std::size_t number_;
     bool goes_on_;
-    std::size_t &failures_; // number of allocations that failed
+    std::size_t &failures_;
 };
 
 void fail_every_allocation(const Setting &setting, bool goes_on) {

@@ -1,4 +1,4 @@
-// Keeps the instance, devices and pipelines, which are slow to create.
+// Reuses the instance, devices and pipelines, because they are slow to create.
 #pragma once
 
 #include <vulkan/vulkan_core.h>

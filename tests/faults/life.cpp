@@ -55,7 +55,7 @@ int32_t go_on(void * /*user*/, double /*fraction*/) {
     return 0;
 }
 
-// After a failure nothing is running, or later calls would be refused.
+// No work runs after a failure. Otherwise later calls would be refused.
 pt_result start_and_poll(pt_context *context, const pt_accumulate_info *info) {
     pt_accumulate_info to_start = *info;
     to_start.progress = nullptr;
@@ -227,7 +227,7 @@ void Life::call(const std::string &step, const Function &function, const std::fu
     EXPECT_GE(run(function), PT_OK) << step << ": " << pt_last_error(context_);
 }
 
-// A call that fails keeps its complete samples. If memory is short, several devices may keep none.
+// A call that fails keeps its complete samples. If memory is short, several devices may keep no samples.
 void Life::accumulate_to(const std::string &step, uint32_t sample_count, double target_error, Accumulate accumulate) {
     pt_accumulate_info info{};
     info.struct_size = sizeof info;

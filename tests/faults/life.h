@@ -13,7 +13,7 @@
 namespace faults {
 
 struct Setting {
-    bool gpu; // whether the CPU poses as a GPU
+    bool gpu; // whether the CPU is used like a GPU
     uint32_t device_count;
     uint32_t submit_milliseconds;
 };
@@ -24,7 +24,7 @@ using Film = std::vector<char>;
 struct ExpectedImages {
     std::map<uint32_t, Image> radiance;
     std::map<uint32_t, Image> standard_error;
-    Film film; // film with all samples
+    Film film;
     Film other_film;
 };
 

@@ -46,7 +46,7 @@ struct ManySpheres {
 };
 
 struct Taken {
-    double meanwhile; // peak during the call
+    double meanwhile;
     double after;
 };
 

@@ -9,7 +9,7 @@ namespace faults {
 
 namespace {
 
-// A long error message enlarges the thread's memory for messages, which then stays the same.
+// A long error message enlarges the thread's message buffer once, so that later messages do not allocate.
 void keep_a_long_message() {
     const std::string no_device(1000, '?');
     pt_create_info create{};

@@ -24,7 +24,7 @@ using FilmBytes = std::vector<char>;
 constexpr uint32_t uneven_width = 40;
 constexpr uint32_t uneven_height = 24;
 
-// The validation layer is off, because its calls and memory would count.
+// Without the validation layer, because its calls and memory would count.
 Context context_of(uint32_t device_count) {
     pt_create_info info{};
     info.struct_size = sizeof info;

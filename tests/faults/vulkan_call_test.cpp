@@ -1,4 +1,4 @@
-// Fails every Vulkan call once. The pt.h call must fail as pt.h says, without changes or leaks.
+// Fails every Vulkan call once.
 #include "tests/faults/sweep.h"
 #include "tests/faults/vulkan_calls.h"
 
@@ -15,7 +15,7 @@ namespace {
 using namespace faults;
 
 pt_result expected_result(const CallFault &fault) {
-    // If work does not end, or its state is unknown, the device is lost.
+    // The device is lost if work does not end, or if its state is unknown.
     if (fault.function == "vkWaitForFences" && fault.result == VK_TIMEOUT)
         return PT_OK;
     if (fault.function == "vkWaitForFences" || fault.function == "vkResetFences")
@@ -72,7 +72,7 @@ public:
         if (fault.function.empty())
             return false;
         places_.push_back({step, number_, fault});
-        // A CPU has one type of memory. Other devices may have another type left.
+        // A CPU has one type of memory. On other devices, memory of another type may serve.
         const bool another_memory =
             fault.function == "vkAllocateMemory" && fault.result == VK_ERROR_OUT_OF_DEVICE_MEMORY && result == PT_OK;
         if (step != "pt_destroy" && !another_memory) {
@@ -89,8 +89,8 @@ private:
     std::vector<Place> &places_;
 };
 
-// Every call fails once with its function's first error. With each other error, only the first call of each function
-// and all submissions fail.
+// Every call fails once with its function's first error. Other errors are injected only into the first call of each
+// function and into all submissions.
 void fail_every_call(const Setting &setting) {
     const ExpectedImages expected = undisturbed_images();
     std::vector<Place> places;
@@ -108,8 +108,7 @@ void fail_every_call(const Setting &setting) {
             Life life(setting, expected, {place.step});
             life.live(injection);
             heal_devices();
-            // A hung device keeps its objects. Real time decides how often it is polled, so the number of calls may
-            // fall.
+            // A hung device keeps its objects. Polls depend on real time, so the number of calls may fall.
             const bool hangs = places.size() > met_before && places.back().fault.function == "vkQueueSubmit" &&
                                places.back().fault.result == VK_TIMEOUT;
             EXPECT_EQ(live_objects().contains("vkCreateDevice"), hangs);

@@ -79,7 +79,7 @@ std::optional<VkResult> result_by_plan(Call call) {
     const std::vector<VkResult> &errors = function(call).errors;
     if (errors.empty() || ++call_count != failing_number)
         return std::nullopt;
-    const bool may_hang = posing || errors.back() != VK_TIMEOUT; // Waiting for a CPU has no time limit.
+    const bool may_hang = posing || errors.back() != VK_TIMEOUT; // A wait for a CPU has no time limit.
     const std::size_t error_count = errors.size() - (may_hang ? 0 : 1);
     fault = {function(call).name, errors[failing_error % error_count], error_count};
     return fault.result;

@@ -11,21 +11,21 @@
 namespace faults {
 
 struct CallFault {
-    std::string function; // empty if not reached
+    std::string function; // empty if no call was reached
     VkResult result = VK_SUCCESS;
     std::size_t error_count = 0;
 };
 
-// Fails one call. `number` counts the calls that can fail from 1, and 0 stops failures. `error_index` chooses from the
-// function's list of errors, modulo its length. VK_TIMEOUT for a submission means that its work never ends and each
-// poll takes 0.1 s in the library's clock. VK_TIMEOUT for a wait takes an hour.
+// Fails one call. `number` counts the calls that can fail from 1, and 0 stops failures. `error_index`, modulo the
+// length of the function's list of errors, chooses the error. VK_TIMEOUT for a submission means that its work never
+// ends and each poll takes 0.1 s in the library's clock. VK_TIMEOUT for a wait takes an hour.
 void fail_call(std::size_t number, std::size_t error_index);
 
 CallFault call_fault();
 
 void heal_devices();
 
-// The CPU poses as a discrete GPU: with staging buffers, two submissions at a time, and a time limit.
+// Lets the CPU pose as a discrete GPU, with staging buffers, two submissions at a time, and a time limit.
 void pose_as_gpu(bool pose);
 
 void limit_memory(std::uint64_t bytes);
@@ -33,7 +33,7 @@ void limit_memory(std::uint64_t bytes);
 // Counts objects by the function that made them. Descriptor sets and command buffers are left out.
 std::map<std::string, long> live_objects();
 
-// Objects that now exist no longer count. They stay until the process ends.
+// Leaves the present objects out of the count. They stay until the process ends.
 void forget_objects();
 
 } // namespace faults

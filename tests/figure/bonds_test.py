@@ -82,7 +82,7 @@ class Known(unittest.TestCase):
 
 
 def residues(*atoms, **more):
-    """Each of `atoms` is residue, residue number, name, atomic number, and place along x."""
+    """Builds particles from rows of residue, residue number, name, atomic number, and place along x."""
     names, numbers, words, elements, places = zip(*atoms)
     positions = np.array([[place, 0, 0] for place in places], float)
     columns = {"resname": np.array(names), "resid": np.array(numbers), "name": np.array(words)}
@@ -128,8 +128,8 @@ class Residues(unittest.TestCase):
 
 class BruteForce(unittest.TestCase):
     def test_all_pairs_in_an_oblique_cell(self):
-        """Compares with the distances to all periodic images. Cells are thinner than the cutoff, particles lie far outside, and one edge is
-        not periodic."""
+        """Compares with the distances to all periodic images. Cells are thinner than the cutoff, particles lie far
+        outside, and one edge may not be periodic."""
         random = np.random.default_rng(7)
         for vectors, periodic, cutoff in (([[4, 0, 0], [1, 5, 0], [-1, 0.5, 6]], True, 1.3),
                                           ([[2, 0, 0], [1.2, 2, 0], [0.3, -0.8, 2]], True, 2.9),
@@ -229,7 +229,7 @@ class Looks(unittest.TestCase):
         self.assertGreater(through.camera.position[1] / without.camera.position[1], 1.3)
 
     def test_vectors(self):
-        """The longest vector is 4 median radii long. A given scale applies to all vectors instead."""
+        """The longest vector is drawn 4 median radii long. A given scale applies to all vectors instead."""
         vectors = np.array([[0.0, 0, 3], [0, 0, 0], [4, 0, 3]])
         particles = Particles(10 * np.eye(3), dict(zip(("vx", "vy", "vz"), vectors.T)))
         for given in ("v", "vx,vy,vz", vectors):
@@ -249,8 +249,8 @@ class Looks(unittest.TestCase):
         self.assertEqual(len(lengths[0]), 0)
 
     def test_opacity(self):
-        """Two balls side by side and their bond transmit 1 - opacity. The tolerance is four standard errors of 128
-        samples in 49 pixels."""
+        """Each of two balls, and each half of their bond, transmits 1 - opacity. The tolerance is four standard errors
+        of 128 samples in 49 pixels."""
         named = replace(PAIR, columns={"share": np.array([0.25, 0.75])})
         with pt.Context() as context:
             options = {"radius": 1.0, "bonds": 2.5, "size": (61, 31), "view": "front", "background": "transparent",
@@ -265,7 +265,8 @@ class Looks(unittest.TestCase):
         self.assertEqual(prepare(named, Options(opacity="0.5", where="share > 0.5")).opacities.tolist(), [0.5])
 
     def test_shares_of_hits(self):
-        """Rays are spread evenly. The fractions vary by less than a tenth of p (1 - p) / 400, the variance of random hits."""
+        """Rays are spread evenly, so the variance of the fractions is less than a tenth of p (1 - p) / 400, which
+        random rays would give."""
         image = pt.figure(np.zeros((1, 3)), radius=1.0, opacity=0.75, samples=400, size=(32, 32), view="front")
         share = image._shares.shapes[8:24, 8:24]
         self.assertAlmostEqual(share.mean(), 0.75, delta=5 * np.sqrt(0.25 * 0.75 / (400 * 256)))

@@ -12,8 +12,8 @@ SHAPE = 96, 128
 
 
 class Sampled:
-    """A context whose samples are normal, with the standard deviation `spread` of a pixel. `stated` is the share of the standard error
-    that it states."""
+    """Takes samples from normal distributions with the standard deviation `spread` of each pixel. States `stated` times
+    the true standard errors."""
 
     def __init__(self, spread, stated=1.0):
         self.random, self.spread, self.stated = np.random.default_rng(1), spread, stated
@@ -55,7 +55,7 @@ class Rule(unittest.TestCase):
         self.spread = np.where(self.covered, np.where(np.arange(128) < 64, 0.04, 0.16), 0.0)
 
     def test_the_noise_is_the_stated_one(self):
-        """6,144 pixels have 1,536 blocks with the same mean square, of which 95% are within 5%."""
+        """The mean square of 1,536 equal blocks lies within 5% of its expectation in 95% of cases."""
         image, measured, shares = sampled(self.spread, self.covered)
         self.assertLess(measured, 1.05 * MOST_NOISE)
         self.assertGreater(measured, 0.75 * MOST_NOISE)
@@ -72,7 +72,7 @@ class Rule(unittest.TestCase):
             self.assertTrue((sampled(spread, covered)[0].sample_count == FIRST_SAMPLES).all())
 
     def test_a_dim_neighbourhood_is_not_left_noisy(self):
-        """The noisy tiles are a thousandth of all, and hardly change the mean."""
+        """The noisy tiles are a thousandth of all tiles, so they hardly change the mean."""
         spread = np.where(self.covered, 0.01, 0.0)
         spread[40:48, 40:48] = 0.5
         self.assertGreater(sampled(spread, self.covered)[0].sample_count[44, 44], 4 * FIRST_SAMPLES)
@@ -87,7 +87,8 @@ class Numbers(unittest.TestCase):
         self.assertAlmostEqual(found[0, 0], 0.5 * 0.002 * np.sqrt(np.square(slopes).mean()), delta=0.002)
 
     def test_bounds(self):
-        """One degree of freedom: the mean of n squares has the relative deviation sqrt(2 / n), for which sqrt(3 / n) stands."""
+        """Each square has one degree of freedom. The mean of n squares then has the relative standard deviation sqrt(2
+        / n). The bound uses sqrt(3 / n) instead."""
         squares = np.square(np.random.default_rng(3).normal(size=3000))
         noise = Noise.of(squares)
         self.assertAlmostEqual(noise.rms, 1.0, delta=0.03)

@@ -1,5 +1,4 @@
-"""Files from other programs and users must give the expected content, or be refused by name, line and rule. All files cloud.* have the same
-particles."""
+"""All files cloud.* have the same particles."""
 
 import bz2
 import gzip
@@ -26,7 +25,7 @@ HEAD = "ITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS "
 ATOMS = "ITEM: ATOMS id xs ys zs\n1 0.5 0.25 0.125\n"
 
 DAMAGES = 60
-DAMAGED = {  # whether a cut row is noticed
+DAMAGED = {  # Each row says whether a cut file is noticed.
     "cloud.csv": False, "cloud.csv.gz": True, "cloud.tsv": False, "cloud.xyz": True, "cloud.extxyz": True, "rows.npy": True,
     "records.npy": True, "stored.npz": True, "deflated.npz": True, "little.ply": True, "lists.ply": True,
     "text.ply": True, "text_lists.ply": True, "melt_plain.dump": True, "tilted.dump": True}
@@ -187,8 +186,6 @@ class Rows(InAFolder):
 
 
 class Users(unittest.TestCase):
-    """Files that were once misread or refused."""
-
     def test_what_they_hold(self):
         for name, count, expected in (
                 ("arr0.npz", 20, {}), ("points.npz", 20, {}), ("one.npz", 20, {}), ("traj.npy", 20, {}),
@@ -270,7 +267,7 @@ class Coinciding(unittest.TestCase):
             notes = " ".join(load(np.concatenate([places, places[::3]])).notes)
             for each in words:
                 self.assertIn(each, notes)
-        # Each of the 70,000 particles is in the compared sample with probability 1/4.
+        # Each of the 70,000 particles belongs to the compared sample with the probability 1/4.
         self.assertLess(abs(int(notes.split()[1].replace(",", "")) - 70_000), 5 * 4 * (70_000 * 3 / 16)**0.5)
 
 
@@ -305,7 +302,7 @@ class Messages(InAFolder):
 
 
 class Damaged(InAFolder):
-    """A file that is cut short or has a wrong byte must be read, or be refused with a message that names the file."""
+    """A file that is cut short or has a wrong byte must be read, or be refused with a message that names it."""
 
     def particles(self, name, data):
         try:
@@ -326,8 +323,8 @@ class Damaged(InAFolder):
                     if found is None:
                         refused += 1
                         continue
-                    # Either all rows are read, or the rows before the cut. If a number may be cut, a note says so.
-                    is_first = name == "cloud.extxyz" and size < 3 * len(data) // 4  # cut within the first of two frames
+                    # Either all rows are read, or the rows before the cut. A note says if a number may be cut.
+                    is_first = name == "cloud.extxyz" and size < 3 * len(data) // 4  # cut in the first of two frames
                     whole_frame = load(DATA / name, frame=0) if is_first else whole
                     kept = len(found) if found.positions[-1:].tolist() == whole_frame.positions[len(found) - 1:].tolist() \
                         or not any("may be cut" in note for note in found.notes) else len(found) - 1

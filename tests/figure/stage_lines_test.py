@@ -1,5 +1,3 @@
-"""Compares coverage, edges of cells and outlines with rays in double precision."""
-
 import unittest
 import unittest.mock
 
@@ -47,7 +45,8 @@ def rays(camera, size):
 
 
 def first_hits(origins, ways, capsules=((), (), 0.0)):
-    """Returns for each ray the index of the ball or capsule that it hits first, or -1. Capsules are numbered after the balls."""
+    """Returns the index of the ball or capsule that each ray hits first, or -1. Capsules are numbered after the
+    balls."""
     begins, ends, radius = capsules
     distances = np.full((*ways.shape[:-1], len(CENTERS) + len(begins)), np.inf)
     for k, (center, size) in enumerate(zip(CENTERS, RADII)):
@@ -81,7 +80,7 @@ class Lines(unittest.TestCase):
         cls.context = cls.enterClassContext(pt.Context())
 
     def test_coverage(self):
-        """Up to two of 16 hits may be rounded differently at a border."""
+        """Rounding may change up to two of 16 hits at a border."""
         for projection in ("perspective", "orthographic"):
             staged = staged_of(projection, SIZE)
             shapes = shares_of(staged, self.context).shapes

@@ -1,4 +1,4 @@
-"""Small hand-written files of all formats of atoms, with their content or the messages that refuse them."""
+"""Small hand-written files of all formats of atoms. Each has its content, or the message that refuses it."""
 
 import gzip
 
@@ -114,8 +114,8 @@ data:
 {rows}...
 """
 
-# Each case has name, text, elements or types, and further content: places along x, lengths of the cell, origin, bonds,
-# and words of a note.
+# Rows: name, text, elements or types, and further content (places along x, lengths of the cell, origin, bonds, and
+# words of a note).
 CASES = (
     ("ca.pdb", atom(" CA", "ALA", 0, "C") + atom("CA", "CA", 1, "CA", kind="HETATM"), "C Ca", {}),
     ("names.pdb", atom(" CA", "ALA", 0) + atom("HG11", "VAL", 1) + atom("1HB", "ALA", 2) + atom(" SD", "MET", 3) +

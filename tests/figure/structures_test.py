@@ -1,5 +1,3 @@
-"""Tests atoms, elements, bonds and cells of the files in structures_cases.py."""
-
 import gzip
 import importlib.util
 import pathlib
@@ -128,7 +126,7 @@ class Large(InAFolder):
 
 
 class Damaged(InAFolder):
-    """A damaged file must be read, or be refused with a message that names the file."""
+    """A damaged file must be read, or be refused with a message that names it."""
 
     def test_damages(self):
         generator = np.random.default_rng(1)

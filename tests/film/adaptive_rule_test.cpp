@@ -95,9 +95,9 @@ TEST(AdaptiveRule, LevelsDouble) {
     EXPECT_TRUE(pt::is_level(std::uint64_t{1} << 31));
 }
 
-// With samples in proportion to sqrt(v), the total falls to (mean of sqrt(v))^2 / mean(v) of an even film's. Counts are
-// powers of two, which costs 4%. The last round may end at 2^(1/2) times the needed count. Negative control: equal
-// errors in all tiles gain nothing.
+// With samples in proportion to sqrt(v), the total is (mean of sqrt(v))^2 / mean(v) times the total with equal samples.
+// Counts are powers of two, which costs 4%. The last round may take sqrt(2) times the needed samples. Negative control:
+// equal errors in all tiles gain nothing.
 TEST(AdaptiveRule, GoesWhereSamplesGainMost) {
     for (const std::uint32_t seed : {1U, 2U, 3U}) {
         const std::vector<double> variances = spread_variances(seed);
@@ -135,7 +135,7 @@ TEST(AdaptiveRule, DoesNotOvershootTheTarget) {
     }
 }
 
-// Samples of a black tile may have missed all of its light.
+// The samples of a black tile may have missed all of its light.
 TEST(AdaptiveRule, BlackTilesGetHalfOfTheMean) {
     std::vector<double> variances(model_grid.count(), 0.0);
     std::fill_n(variances.begin(), variances.size() / 2, 1.0);
@@ -185,7 +185,8 @@ TEST(AdaptiveRule, WhatIsUnseenMovesNoBound) {
     EXPECT_GT(pt::round_after(before, samples, squares, gains, 1.1, true).number, before.number);
 }
 
-// Two halves whose gains have the ratio r give mean(v) / mean(sqrt(v))^2 = 2 (1 + r) / (1 + sqrt(r))^2.
+// If half of the tiles have r times the gain of the others, then mean(v) / mean(sqrt(v))^2 = 2 (1 + r) / (1 +
+// sqrt(r))^2.
 TEST(AdaptiveRule, TilesThatAreAlikeStayTogether) {
     std::vector<double> gains(1000, 1.0);
     EXPECT_FALSE(pt::are_worth_telling_apart(gains));
@@ -218,7 +219,7 @@ struct ModelFilm {
     bool has_target_error = false;
 };
 
-// A tile's squared error is v / n times a random factor for each n. `spread` is the deviation of log(v).
+// The squared error of a tile is v / n times a random factor for each n. `spread` is the standard deviation of log(v).
 class ModelErrors {
 public:
     ModelErrors(std::uint32_t seed, double spread) : seed_(seed) {
@@ -304,7 +305,6 @@ ModelFilm sampled_in_calls(const ModelErrors &errors, std::uint64_t most, std::m
     return film;
 }
 
-// Calls end at a power of two, between powers, and beyond the target.
 TEST(AdaptivePlan, CallsThatEndAnywhereComeToTheSameSamples) {
     std::mt19937 generator(1);
     int with_target_error = 0;
@@ -335,7 +335,7 @@ TEST(AdaptivePlan, CallsThatEndAnywhereComeToTheSameSamples) {
     EXPECT_GT(apart, 8);
 }
 
-// The last tiles of a round may reach the target first.
+// The target may be reached before the last tiles of a round have their samples.
 TEST(AdaptivePlan, ARoundThatIsUnderWayIsNotTheEnd) {
     ModelFilm film{TileSamples(plan_grid, pt::SampleSet({0, 16})), {20, 0}, {}, false};
     film.samples.add(std::vector<std::uint32_t>{5}, {16, 24});
@@ -353,7 +353,6 @@ TEST(AdaptivePlan, ARoundThatIsUnderWayIsNotTheEnd) {
     EXPECT_FALSE(plan.next(film.samples, film.round).has_value());
 }
 
-// The error is on target at once.
 TEST(AdaptivePlan, ATargetIsNotReachedBeforeLampsAreHit) {
     ModelFilm film{TileSamples(plan_grid, pt::SampleSet({0, 16})), {}, {}, false};
     film.squares.assign(plan_grid.count(), 0.0);

@@ -73,7 +73,6 @@ private:
     Context alone_;
 };
 
-// Covers films in host memory and in kernels, on one device and on several.
 TEST_F(AdaptiveTest, EachTileHasTheBitsOfAnEvenFilm) {
     for (const auto &[device_count, like_gpus] : {std::pair{1U, false}, {1U, true}, {3U, true}}) {
         const Context uneven = context_on(device_count, 50, like_gpus);

@@ -56,12 +56,12 @@ Noise normal(double deviation) {
     return [=](std::mt19937 &random) { return std::normal_distribution(1.0, deviation)(random); };
 }
 
-// Rare events with the mean 1. A pixel expects `share` of an event.
+// Rare events with the mean 1. A pixel has `share` events on average.
 Noise rare_events(double share) {
     return [=](std::mt19937 &random) { return std::poisson_distribution<int>(share)(random) / share; };
 }
 
-// Rare events bring the fraction `of_light` of the light.
+// A fraction `of_light` of the light comes from rare events.
 Noise partly_rare(double share, double of_light) {
     return [=](std::mt19937 &random) {
         return (1.0 - of_light) * normal(0.001)(random) + of_light * rare_events(share)(random);
@@ -123,7 +123,7 @@ TEST(Comparison, TheProbabilityIsThatOfSigns) {
     EXPECT_NEAR(whole.difference[1], (plus * up + minus * down) / pixel_count, 1e-12);
 }
 
-// Compares Bentkus and Dzindzalieta's constant with exact tails of sums of n signs.
+// Compares the constant of Bentkus and Dzindzalieta with exact tails of sums of n signs.
 TEST(Comparison, TheConstantOfSignsHolds) {
     for (const int n : {2, 3, 10, 31}) {
         double term = std::pow(0.5, n);
@@ -203,7 +203,7 @@ TEST(Comparison, TooFewSamplesAreToldFromTheSameLight) {
     EXPECT_EQ(compared(info_of(black, second)).light, PT_LIGHT_UNDECIDED); // The black image may have missed the lamp.
 }
 
-// A lack of light counts if the other image may miss light as well.
+// A darker image is evidence unless it may have missed light and the other image may not.
 TEST(Comparison, LackOfLightThatMayBeMissedSaysNothing) {
     std::mt19937 random(5);
     const Pixels darker = drawn(random, normal(0.02));
@@ -217,7 +217,7 @@ TEST(Comparison, LackOfLightThatMayBeMissedSaysNothing) {
     EXPECT_EQ(compared(info).light, PT_LIGHT_DIFFERENT);
 }
 
-// The darker image may have missed samples as bright as the visible lamp.
+// The darker image may have missed samples as bright as the lamp.
 TEST(Comparison, ASampleOfTheBrightestPixelMayBeMissing) {
     Pixels second(3 * pixel_count, 1.0F);
     Pixels first = times(second, 0.97);

@@ -1,4 +1,3 @@
-// Tone curves, pixels of displays and automatic exposures.
 #include "lib/display/tone_curve.h"
 
 #include <pt/display.h>
@@ -55,7 +54,8 @@ TEST(ToneCurve, SrgbAnchors) {
     EXPECT_NEAR(pt::encode_srgb(0.001), 0.01292, rounding);
 }
 
-// The standard rounds the break point to 7 decimals. The gap is the slope times half a unit of the last decimal.
+// The standard rounds the break point to 7 decimals. The pieces may differ by the slope times half a unit of the last
+// decimal.
 TEST(ToneCurve, SrgbPiecesMeet) {
     constexpr double break_point = 0.0031308;
     const double above = pt::encode_srgb(std::nextafter(break_point, 1.0));
@@ -91,7 +91,7 @@ TEST(ToneCurve, NoneClamps) {
 TEST(ToneCurve, ReinhardIsOnTheLuminance) {
     expect_color(apply_curve(PT_CURVE_REINHARD, {1.0, 1.0, 1.0}), {0.5, 0.5, 0.5}, rounding);
     const Color color = apply_curve(PT_CURVE_REINHARD, {1.0, 0.5, 0.25});
-    EXPECT_NEAR(color[0] / color[1], 2.0, rounding); // 0.5 / 0.333 if each channel had its own curve
+    EXPECT_NEAR(color[0] / color[1], 2.0, rounding); // would be 0.5 / 0.333 if each channel had its own curve
     EXPECT_NEAR(color[1] / color[2], 2.0, rounding);
 }
 
@@ -177,7 +177,7 @@ bool is_nearest(std::uint64_t component, long double exact) {
     return std::abs(static_cast<long double>(component) - exact) <= 0.5L + 65535.0L * 4.0L * 0x1p-52L;
 }
 
-// The expected signal comes from the curve's light for exact products, because the exposure is a whole number.
+// The exposure is a whole number, so the light before the curve is exact.
 template <typename Component>
 void expect_nearest(const pt_display_info &display) {
     const std::vector<Component> pixels = pixels_of<Component>(display);
@@ -344,14 +344,14 @@ TEST(Exposure, TheAverageOfLogarithmsBecomesMiddleGrey) {
     EXPECT_EQ(automatic_exposure(grey({0x1p-20F * 0.09F, 0x1p-20F * 0.36F})), 20.0) << "moves with the picture";
 }
 
-// A hundredth of the pixels is 2^20 times as bright. The level would be 2^20 / 100^4 from these pixels alone.
+// A hundredth of the pixels are 2^20 times as bright. Their part of the level is 2^20 / 100^4.
 TEST(Exposure, HardlyDependsOnLamps) {
     std::vector<float> radiance = grey({0x1p20F * 0.18F});
     radiance.resize(3 * 100, 0.18F);
     EXPECT_NEAR(automatic_exposure(radiance), -20.0 / 100.0, 0.01);
 }
 
-// Half of the picture is at most 2^-40. The weight of this half is 128 * 2^-40 / level.
+// Half of the picture is at most 2^-40. Its weight is 128 * 2^-40 / level.
 TEST(Exposure, WhatLooksBlackDoesNotCount) {
     EXPECT_EQ(automatic_exposure(grey({0.18F, 0x1p-40F, 0.18F, 0x1p-60F})), 0.0);
 }

@@ -34,7 +34,7 @@ double raised(double root, double pixel_count) {
     return root * (1.0 + 0.6 / std::sqrt(pixel_count) + 2.5 / pixel_count);
 }
 
-// Two of six values have the squares 3^2 and 4^2. They are as concentrated as 25^2 / (9^2 + 16^2) equal values.
+// Two of six values have the squares 3^2 and 4^2. The squares are as concentrated as 25^2 / (9^2 + 16^2) equal values.
 TEST(ErrorEstimate, IsTheRootOfTheMeanOfSquares) {
     const pt::ErrorEstimate found = estimate(2, {10, 10, 10, 10, 10, 10}, {3, 0, 0, 4, 0, 0});
     const double pixel_count = 625.0 / 337.0;
@@ -68,8 +68,8 @@ TEST(ErrorEstimate, IsUncertainWhereLampsMayBeMissed) {
     EXPECT_TRUE(std::isinf(estimate(32, black, black, PT_SAMPLER_RANDOM, true).relative_rmse.high));
 }
 
-// If most bright pixels were hit once, their errors count relative to the black around them. Otherwise they count
-// relative to the expected number of hits, 2 ln 3.
+// If most bright pixels were hit once, their errors are relative to the black around them. Otherwise they are relative
+// to the expected number of hits, 2 ln 3.
 TEST(ErrorEstimate, TellsLampsFromRareSamples) {
     constexpr std::size_t side = 64;
     const auto relative_square = [](std::size_t met_once, std::size_t met_again) {
@@ -95,8 +95,8 @@ TEST(ErrorEstimate, TellsLampsFromRareSamples) {
     EXPECT_GT(expected(40, 0), 300.0);
 }
 
-// 40 pixels have one hit each, and 0 or 20 others have several. The 20 pixels allow an expected number of 20 - 1.96
-// sqrt(20). Without any, the light may be of any rarity, so each pixel may count relative to the black around it.
+// 40 pixels have one hit each, and 0 or 20 other pixels have several hits. 20 pixels allow an expected number of 20 -
+// 1.96 sqrt(20). With 0 pixels, the light may be so rare that errors are relative to the black around each pixel.
 TEST(ErrorEstimate, IsBoundedByTheRarestLightThatMeetingsAllow) {
     const double least = 20.0 - 1.96 * std::sqrt(20.0);
     const auto square = [](double met_again) {
@@ -120,7 +120,7 @@ TEST(ErrorEstimate, IsBoundedByTheRarestLightThatMeetingsAllow) {
     }
 }
 
-// If lamps are found by chance, pixels with one hit count relative to their surroundings, which are 0.
+// If lamps are found by chance, errors of pixels with one hit are relative to the black around them.
 TEST(ErrorEstimate, OfLampsFoundByChanceAsksNotWhatWasMetAgain) {
     std::vector<float> radiance(3 * 32 * 32, 0.0F);
     std::vector<float> errors(radiance.size(), 0.0F);
@@ -191,8 +191,8 @@ TEST(ErrorEstimate, IsHiddenByMoreThanOneLeftOutSampleInAMillion) {
     EXPECT_TRUE(pt::hides_error((1 << 10) + 1, std::uint64_t{1} << 30));
 }
 
-// Two tiles have the sums of squares 64 * 3 * 1 and 64 * 3 * 4. The mean is 2.5 per value, so each sum deviates by 64 *
-// 3 * 1.5. The root of the summed squares of these deviations is 1.5 sqrt(2) / 5 of the total. The squares are as
+// The sums of squares of two tiles are 64 * 3 * 1 and 64 * 3 * 4. The mean is 2.5 per value, so each sum deviates by 64
+// * 3 * 1.5. The root of the sum of their squares, relative to the total, is 1.5 sqrt(2) / 5. The squares are as
 // concentrated as (64 * 5)^2 / (64 * 17) equal pixels.
 TEST(ErrorEstimate, BoundsComeFromTheSpreadOverTiles) {
     std::vector<float> errors;

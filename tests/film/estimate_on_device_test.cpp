@@ -21,7 +21,7 @@ constexpr std::uint32_t part_samples = 32;
 
 class Films {
 public:
-    // The newer part of the first pixel lacks `rejected` samples.
+    // The newer part of the first pixel has `rejected` samples fewer.
     pt::PixelSums film(std::uint32_t width, std::uint32_t height, std::uint32_t rejected = 0) {
         pt::PixelSums sums;
         sums.resize(std::size_t{width} * height);
@@ -120,7 +120,7 @@ protected:
     Films films_;
 };
 
-// Some units of radiance make its squares, or their sums, exceed float's range.
+// In some units of radiance, squares or their sums exceed the range of float.
 TEST_F(EstimateTest, IsThatOfTheHost) {
     for (const Size &size : {Size{1, 1}, Size{7, 3}, Size{33, 32}, Size{200, 111}, Size{64, 300}})
         for (const double unit : {1.0, 0x1p-120, 0x1p-60, 0x1p30, 0x1p52}) {

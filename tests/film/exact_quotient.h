@@ -33,7 +33,7 @@ inline Middle middle_above(std::uint32_t float_bits) {
     return {2 * pt::WideSum{mantissa} + 1, static_cast<int>(std::max(exponent, 1U)) - 127 - 23 - 1};
 }
 
-// Whether the float is nearest to sum * 2^exponent / count. Ties go to even.
+// Whether the float is nearest to sum * 2^exponent / count. Ties go to even mantissas.
 inline bool is_nearest(std::uint32_t bits, pt::WideSum sum, std::uint32_t count, int exponent) {
     const bool even = bits % 2 == 0;
     if (bits < 0x7f800000) { // Infinity has no upper midpoint.
@@ -49,7 +49,7 @@ inline bool is_nearest(std::uint32_t bits, pt::WideSum sum, std::uint32_t count,
     return order < 0 || (order == 0 && even);
 }
 
-// |A b - B a| 2^exponent / ((a + b) sqrt(a b)), with an exact numerator.
+// Returns |A b - B a| 2^exponent / ((a + b) sqrt(a b)). The numerator is exact.
 inline long double exact_standard_error(pt::WideSum sum_a, std::uint32_t a, pt::WideSum sum_b, std::uint32_t b,
                                         int exponent) {
     const auto multiplied = [](pt::WideSum sum, std::uint32_t factor) {
@@ -69,7 +69,7 @@ inline long double exact_standard_error(pt::WideSum sum_a, std::uint32_t a, pt::
     return std::ldexp(numerator / sum / std::sqrt(static_cast<long double>(a) * b), exponent);
 }
 
-// Whether `found` is within .52 ulp of `exact`, even at both ends of float's range.
+// Whether `found` is within .52 ulp of `exact`. Includes both ends of float's range.
 inline bool is_close(float found, long double exact) {
     if (std::isinf(found))
         return exact >= 0x1.ffffffp127L;

@@ -45,8 +45,8 @@ const pt::FilmHeader golden_header{{{"scene", "00112233445566778899aabbccddeeff"
                                      }()},
                                     {{3, 1, 2, 2}, pt::SampleSet({8, 10})}}};
 
-// In pixel i of part s, r = (i + s) mod 2 of the n samples were rejected. The sum of channel c is (n - r) ((c + 1)
-// 10^25 + 10^18 i + 977 s).
+// Part s has n samples. Pixel i rejects r = (i + s) mod 2 of them. The sum of channel c is (n - r) ((c + 1) 10^25 +
+// 10^18 i + 977 s).
 void set_part(pt::PixelSums &sums, std::uint32_t part, std::uint32_t samples, std::uint32_t s) {
     __extension__ using Wide = unsigned __int128;
     constexpr Wide ten_to_18 = 1'000'000'000'000'000'000U;

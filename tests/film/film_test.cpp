@@ -1,4 +1,3 @@
-// Sums of films have the bytes of films with all samples.
 #include "lib/film/film.h"
 
 #include "tests/support/expected_error.h"
@@ -25,7 +24,7 @@ Bytes bytes_of(const pt::Film &film) {
     return bytes;
 }
 
-// Tiles of 8x8 pixels, as in adaptive sampling, or the whole image.
+// The tiles have 8x8 pixels, as in adaptive sampling, or are the whole image.
 std::vector<pt::Rectangle> grid(std::uint32_t width, std::uint32_t height) {
     std::vector<pt::Rectangle> tiles;
     for (std::uint32_t y = 0; y < image_height; y += height)
@@ -145,7 +144,7 @@ TEST(Film, MeansAndErrorsAreRoundedOnce) {
                   for (std::uint32_t i = 0; i < image_width; ++i)
                       for (std::uint32_t channel = 0; channel < 3; ++channel) {
                           const film_maker::Pixel pixel{y, i};
-                          long double sum = 0.0L; // Exact: 12 numbers below 2^84 with 24 bits each.
+                          long double sum = 0.0L; // exact: 12 numbers below 2^84 with 24 bits each
                           int accepted = 0;
                           for (std::uint32_t index = 0; index < 12; ++index)
                               if (!film_maker::is_rejected(pixel, index)) {
@@ -236,7 +235,7 @@ TEST(Film, WhatNoPictureHasIsRefused) {
         Bytes unharmed =
             film_maker::film_of(film_maker::identity(image_width, image_height, has_coverage), grid(8, 8), samples);
         const pt::Film film(unharmed);
-        unharmed[unharmed.size() - 100] ^= std::byte{2}; // a count; the checksum is valid
+        unharmed[unharmed.size() - 100] ^= std::byte{2}; // changes a count; the checksum stays valid
         seal(unharmed);
         EXPECT_EQ(error_of([&] { const pt::Film damaged(unharmed); }).what(),
                   std::string("film: sums that its samples cannot have"));

@@ -28,7 +28,7 @@ TEST(PixelFormat, HalvesAtTheEndsOfTheRange) {
     EXPECT_EQ(pt::half_bits(0x1p-25F), 0U);
     EXPECT_EQ(pt::half_bits(0x1.000002p-25F), 1U);
     EXPECT_EQ(pt::half_bits(65504.0F), 0x7bffU);
-    EXPECT_EQ(pt::half_bits(0x1.ffdffep15F), 0x7bffU); // below 65520, the midpoint to infinity
+    EXPECT_EQ(pt::half_bits(0x1.ffdffep15F), 0x7bffU); // below 65520, the midpoint between 65504 and infinity
     EXPECT_EQ(pt::half_bits(65520.0F), half_infinity);
     EXPECT_EQ(pt::half_bits(65536.0F), half_infinity);
     EXPECT_EQ(pt::half_bits(std::numeric_limits<float>::max()), half_infinity);

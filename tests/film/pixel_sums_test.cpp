@@ -1,4 +1,3 @@
-// Compares the host's means and standard errors with the kernels'.
 #include "lib/film/pixel_sums.h"
 
 #include "shaders/quotient.h"
@@ -29,7 +28,7 @@ struct Usual {
     int most_bits;
 };
 
-// Sums with few bits have quotients midway between floats. Some pairs of means are equal or nearly equal.
+// Sums with few bits have quotients midway between floats. Some means of a pixel's parts are equal or nearly equal.
 class RandomSums {
 public:
     explicit RandomSums(const Usual &usual) : usual_(usual) {}

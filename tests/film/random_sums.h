@@ -46,7 +46,7 @@ public:
             return most;
         case 3:
         case 4:
-        case 5: { // count * (m + 1/2) 2^k or a neighbor: a tie between the mantissas m and m + 1
+        case 5: { // a tie between the mantissas m and m + 1, count * (m + 1/2) 2^k, or a neighbor of it
             const pt::WideSum half = 2 * (generator_() % (1U << 23) + (1U << 23)) + 1;
             const int shift = std::uniform_int_distribution(0, 60)(generator_);
             return (half * count << shift) + generator_() % 3 - 1;

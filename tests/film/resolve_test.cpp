@@ -1,4 +1,4 @@
-// Compares means and standard errors with exact integers and long double. PT_TEST_SUMS sets the number of random sums.
+// PT_TEST_SUMS sets the number of random sums.
 #include "lib/code/shader_source.h"
 #include "lib/film/pixel_format.h"
 #include "lib/film/quotient.h"
@@ -195,7 +195,7 @@ TEST_F(Resolve, BuffersHoldTheImageAndNothingElse) {
     }
 }
 
-// The call after the loss reports it and writes nothing.
+// The first call after the loss reports it and writes nothing.
 TEST_F(Resolve, SamplesLostOnTheWayToABufferAreAnError) {
     device_with(pt::vulkan::gpu_like_policy());
     pt::DeviceFilm film(device(), width, height, 30'000);

@@ -158,7 +158,7 @@ TEST_F(SavedFilm, AsAValueShowsWhatTheContextShows) {
     EXPECT_EQ(kept_error.uncertain, rendered.uncertain);
     for (double Error::*const each : {&Error::rmse, &Error::rmse_low, &Error::rmse_high, &Error::relative_rmse,
                                       &Error::relative_rmse_low, &Error::relative_rmse_high})
-        // A GPU sums at most 3072 squares of 16 tiles in float32, so the error is 3072 x 2^-24.
+        // A GPU sums up to 3072 squares of 16 tiles in float32, with an error of 3072 x 2^-24.
         EXPECT_NEAR(kept_error.*each, rendered.*each, 2e-4 * rendered.*each);
 }
 

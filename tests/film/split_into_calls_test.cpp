@@ -52,7 +52,7 @@ TEST_F(SplitIntoCalls, SplittingOverCallsKeepsTheBits) {
     EXPECT_NE(image_of({7, 19, 37}), at_once) << "a missing sample must show";
 }
 
-// Calls may exceed the limits of a dispatch or of the table of points.
+// A call may exceed the limits of a dispatch or of the table of points.
 class GatheringTest : public SplitIntoCalls {
 protected:
     Context create_fixtures_context() override {
@@ -101,7 +101,7 @@ protected:
     }
 };
 
-// Dispatches end at powers of two, so the largest one starts there.
+// Dispatches end at powers of two, so the largest one starts at a power of two.
 TEST_F(GatheringTest, OfRandomSamplesKeepsTheBits) {
     constexpr Paths paths{PT_SAMPLER_RANDOM, 2};
     constexpr uint32_t most = pt::gpu::FILM_MAX_GATHERED;
@@ -151,8 +151,9 @@ TEST_F(SplitIntoCalls, SamplesMayRunOutBeforeTheTargetErrorIsReached) {
     EXPECT_EQ(stats().sample_count, 16U);
 }
 
-// |A - B| sqrt(a b) / n. A is the mean of the first a samples, where a is the largest power of two below n. B is the
-// mean of the other b. Calls end before, at, after and across the counts at which parts are folded.
+// The expected value is |A - B| sqrt(a b) / n. A is the mean of the first a samples, where a is the largest power of
+// two below n. B is the mean of the other b samples. Calls end before, at, after and across the counts at which parts
+// are folded.
 TEST_F(SplitIntoCalls, StandardErrorsAreThoseOfTheFilmsParts) {
     const auto standard_errors = [&] {
         Image errors(width * height * 3);

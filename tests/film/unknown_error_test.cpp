@@ -49,8 +49,8 @@ protected:
 
 constexpr uint32_t unmet = PT_UNCERTAIN_UNMET;
 
-// A ray hits the lamp with the probability 1/100. The 1024 pixels have 164 hits with 16 samples and 2,620 with 256. The
-// estimate needs 1,000.
+// A ray hits the lamp with the probability 1/100. The 1024 pixels have 164 hits with 16 samples, and 2,620 with 256.
+// The error is known from 1,000 hits on.
 TEST_F(UnknownError, WhileALampIsHardlyMetByChance) {
     for (const uint32_t estimator : {PT_ESTIMATOR_UNIFORM, PT_ESTIMATOR_COSINE, PT_ESTIMATOR_BSDF}) {
         set_up(20.0, estimator);
@@ -78,7 +78,7 @@ double lamp_of(double pixels) {
     return 10.0 * 2.0 * std::tan(0.5) / height * std::sqrt(pixels / 3.14159);
 }
 
-// A visible lamp that covers a 20th of a pixel is hit .8 times by 16 samples, and 13 times by 256. Its light on other
+// A visible lamp that covers a 20th of a pixel expects .8 hits of 16 samples, and 13 of 256. Its light on other
 // surfaces is negligible.
 TEST_F(UnknownError, WhileSamplesHardlyMeetALampInView) {
     for (const bool in_view : {true, false}) {
@@ -88,7 +88,8 @@ TEST_F(UnknownError, WhileSamplesHardlyMeetALampInView) {
     }
 }
 
-// A lamp that covers 2.5e-9 of all directions is never hit. Two black parts agree, although the light is unknown.
+// A lamp that covers 2.5e-9 of all directions is never hit. Both parts are black and agree, although the light is
+// unknown.
 TEST_F(UnknownError, NothingIsKnownOfAPictureThatIsBlackByChance) {
     set_up(0.01, PT_ESTIMATOR_BSDF);
     EXPECT_EQ(after(16), unmet);

@@ -87,7 +87,7 @@ void examine_one(const Input &input) {
             "the bits do not depend on how samples are split over calls");
 }
 
-// Repeated surfaces merge, so a neighbor may need another kernel. Returns no value if the input is refused.
+// Returns no value if the input is refused. Repeated surfaces merge, so a changed input may need another kernel.
 std::optional<pt::Features> features(const Input &input) {
     try {
         return pt::gpu_scene(pt::PreparedScene(pt::owned_scene(checked_scene_of(input.scene()))),
@@ -100,8 +100,7 @@ std::optional<pt::Features> features(const Input &input) {
 
 } // namespace
 
-// Building a kernel takes a thousand times as long as rendering an image, so neighbors that need another kernel are
-// skipped.
+// Building a kernel takes a thousand times as long as rendering an image. Inputs that need another kernel are skipped.
 const std::uint32_t neighbour_count = 255;
 
 void examine(std::span<const Input> family) {

@@ -1,4 +1,4 @@
-// Checks inputs without a device. Accepted inputs must keep pt.h's promises, and refusals need a code and a message.
+// Checks inputs without a device. Accepted inputs must keep the promises of pt.h. Refusals need a code and a message.
 #include "tests/fuzz/examine.h"
 
 #include "lib/base/error.h"
@@ -62,7 +62,7 @@ bool is_color(const glm::vec3 &color) {
     return in_range(color.r) && in_range(color.g) && in_range(color.b);
 }
 
-// Squares, sum, root and quotient round once each by 2^-53.
+// Squares, sum, root and quotient have rounding errors of 2^-53 each.
 bool is_unit(const glm::dvec3 &v) {
     return std::abs(glm::length(v) - 1.0) <= 8 * 0x1p-53;
 }
@@ -86,8 +86,8 @@ void require_scene(const pt::Scene &scene) {
 }
 
 void require_camera(const pt::Camera &camera) {
-    // The error is 5 * 2^-53 / 2^-26 at the smallest angle between `up` and the view (camera.cpp). Between two such
-    // vectors the error doubles.
+    // The error is 5 * 2^-53 / 2^-26 at the smallest angle between `up` and the view (camera.cpp). The angle between
+    // two such vectors has twice this error.
     constexpr double rounding = 10 * 0x1p-27;
     require(are_lengths(camera.position), "the camera's position is made of lengths");
     require(is_unit(camera.forward) && is_unit(camera.right) && std::abs(glm::length(camera.up) - 1.0) <= rounding,
@@ -96,7 +96,7 @@ void require_camera(const pt::Camera &camera) {
                 std::abs(glm::dot(camera.forward, camera.up)) <= rounding &&
                 std::abs(glm::dot(camera.right, camera.up)) <= rounding,
             "the camera's axes are perpendicular");
-    const double least_tangent = (1.0 - 0x1p-40) * std::tan(0.5e-8); // 40 bits are kept.
+    const double least_tangent = (1.0 - 0x1p-40) * std::tan(0.5e-8); // Keeps 40 bits.
     require((camera.is_orthographic() || camera.tan_half_fov >= least_tangent) && std::isfinite(camera.tan_half_fov),
             "the field of view lies in [1e-8, pi)");
     require(camera.shutter_open >= 0.0 && camera.shutter_open <= camera.shutter_close && camera.shutter_close <= 1.0,
@@ -129,8 +129,8 @@ void require_features(const pt::Features &features, const pt::Scene &scene) {
             "the loop trips of a sample can be counted");
 }
 
-// The largest numbers are squares of lengths. Lengths are at most 3e18 from the pinhole, which is at most 6e18 behind
-// the start of rays. Only a lobe's peak, k_s (n + 2) / (2 pi), may be larger.
+// The largest numbers are squares of lengths. Lengths are at most 3e18 from the pinhole, and the pinhole is at most
+// 6e18 behind the start of rays. Only the peak of a lobe, k_s (n + 2) / (2 pi), may be larger.
 constexpr float largest_length = 9.0001e18F;
 constexpr float largest_peak = 1.6e26F;
 

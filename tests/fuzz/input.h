@@ -21,7 +21,7 @@ struct Input {
     pt_render render{};
     std::uint32_t sample_count = 1;
 
-    // Wrong values that replace the input's. They promise at most what exists, or must be refused.
+    // Wrong values that replace the input's values. They claim at most the memory that exists, or must be refused.
     struct SceneClaims {
         bool has_materials = true;
         bool has_spheres = true;
@@ -30,7 +30,7 @@ struct Input {
         std::uint32_t fewer_materials = 0;
     } claims;
 
-    // Columns may hold the last spheres. Their pointers point into the structs.
+    // Columns may hold the last spheres. The pointers point into the structs.
     struct Columns {
         std::uint32_t count = 0;
         bool has_colors = false;

@@ -6,10 +6,10 @@
 
 extern "C" {
 
-// The target defines this function. Returns 0.
+// The target defines this function.
 int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size);
 
-// The target may define this function. Changes `size` bytes in memory of max_size bytes, and returns the new size.
+// The target may define this function. It changes `size` bytes in memory of max_size bytes, and returns the new size.
 __attribute__((weak)) std::size_t LLVMFuzzerCustomMutator(std::uint8_t *data, std::size_t size, std::size_t max_size,
                                                           unsigned int seed);
 

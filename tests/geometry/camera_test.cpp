@@ -116,7 +116,7 @@ TEST(Camera, TakesWhatIsSet) {
     EXPECT_EQ(camera.shutter_close, 0.25);
 }
 
-// Tangents computed on different systems differ in the last bits.
+// Tangents on different systems differ in the last bits.
 TEST(Camera, IsTheSameWhereTangentsAreNearlySo) {
     pt_camera source = valid_camera();
     source.vertical_fov = 0.7;

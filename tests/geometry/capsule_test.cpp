@@ -1,4 +1,3 @@
-// Compares capsules with double. Random scenes with their light are in tests/light/random_light_test.cpp.
 #include "tests/support/light_in_double.h"
 
 #include <pt/film.h>
@@ -92,8 +91,8 @@ protected:
             }
             const bool meets = nearest.distance < 1e-9;
             met += meets ? 1 : 0;
-            // float32 has an error of 8 2^-24 at a distance of 8, and of 2^-23 of the huge radius. At grazing angles
-            // the error is the square root of these.
+            // The error of float32 is 8 2^-24 at a distance of 8, and 2^-23 of the huge radius. At grazing angles the
+            // error becomes the square root of this.
             const bool is_near = std::abs(depths[3 * i] - depth) < 2e-4 * depth;
             const bool is_object = objects[i] == seen.spheres.size() + nearest.index;
             wrong += meets != std::isfinite(depths[3 * i]) || (meets && !(is_near && is_object)) ? 1 : 0;
@@ -113,9 +112,9 @@ double difference(const std::vector<float> &a, const std::vector<float> &b) {
     return differences / light;
 }
 
-// Where the scene has other capsules too, the bits are equal. Without them, another kernel rounds differently within
-// 2^-22 of the silhouettes of 100 balls, in fewer than 1e-4 of the rays. A missing ball would change a hundredth of
-// them.
+// If the scene has other capsules too, the bits are equal. Otherwise another kernel renders the spheres. Its rounding
+// differs within 2^-22 of the silhouettes of 100 balls, which are fewer than 1e-4 of the rays. A missing ball would
+// change a hundredth of the rays.
 TEST_F(Capsules, AreSpheresWhereTheirEndsCoincide) {
     for (const bool all : {false, true}) {
         Given given = all ? random_scene(4, 200, 100, 8.0) : random_scene(1, 6, 3, 8.0);

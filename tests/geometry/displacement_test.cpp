@@ -1,4 +1,3 @@
-// Finds the surface that rounding moves by more than a pixel.
 #include "lib/scene/checked_scene.h"
 #include "lib/view/displacement.h"
 #include "tests/support/checked_scene_of.h"
@@ -23,7 +22,7 @@ struct Surface {
 
 constexpr float half = 0.5F;
 
-// A pixel's side is 1/512 of its distance. The bounds of depths reduce it by 0.8%.
+// A pixel's side is 1/512 of its distance. Bounds of depths make it up to 0.8% smaller.
 constexpr pt::RenderSettings square{64, 64, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 64};
 const pt::Camera ahead{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.0625, 0.0, 1.0};
 
@@ -111,13 +110,13 @@ TEST(Displacement, OfSpheresThatShareAGridWithAGround) {
     EXPECT_EQ(rule->component, 1);
 }
 
-// The capsule passes at a distance of 1, where a pixel's side is 1 / 512 = 2^-21 of 2^12.
+// The capsule passes at a distance of 1, where a pixel's side is 1 / 512. This is 2^-21 of 2^12.
 TEST(Displacement, OfLongCapsules) {
     const auto passing = [](double length) {
         return displaced_capsule({-0.5 * length, 0, -1.5}, {0.5 * length, 0, -1.5}, 0.5);
     };
     EXPECT_FALSE(passing(1));
-    EXPECT_FALSE(passing(3200)); // The bound may place parts of the capsule nearer by an eighth.
+    EXPECT_FALSE(passing(3200)); // The capsule's bound may be nearer by an eighth.
     const auto rule = passing(4200);
     ASSERT_TRUE(rule);
     EXPECT_EQ(rule->member, "end");

@@ -118,7 +118,7 @@ protected:
                                                     given.render.first_row + pixel / columns);
         if (!means)
             return false;
-        // Sums of 16 numbers up to 1 have this error. Albedos add a dozen roundings.
+        // This is the error of sums of 16 numbers up to 1. Albedos add a dozen roundings.
         const double of_sum = 16.0 * static_cast<double>(rounding);
         for (int i = 0; i < 3; ++i) {
             const std::size_t place = 3 * pixel + static_cast<std::size_t>(i);
@@ -155,7 +155,7 @@ protected:
             EXPECT_EQ(pixels.depths[3 * pixel + 1], pixels.depths[3 * pixel]);
             EXPECT_EQ(pixels.depths[3 * pixel + 2], pixels.depths[3 * pixel]);
             const Real depth = met->distance * glm::dot(ray.direction, view.forward);
-            // The cosine to the axis and the product add 8 roundings.
+            // The cosine to the axis and the product add 8 rounding errors.
             const Real tolerance = met->tolerance + 8.0L * rounding * met->distance;
             if (met->object == PT_NO_OBJECT)
                 EXPECT_EQ(pixels.depths[3 * pixel], std::numeric_limits<float>::infinity());
@@ -261,7 +261,7 @@ TEST_F(RandomFirstHit, IsThatOfLongDouble) {
     }
 }
 
-// Multiples of 1/4 are exact in float32 and on the grid, so tree and list agree to the bit. Rays start outside the
+// Multiples of 1/4 are exact in float32 and on the grid, so tree and list give the same bits. Rays start outside the
 // tree.
 TEST_F(RandomFirstHit, OfALatticeInASkyIsThatOfAList) {
     Shot shot;

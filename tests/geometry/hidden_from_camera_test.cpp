@@ -20,7 +20,7 @@ namespace {
 constexpr std::uint32_t picture_width = 40;
 constexpr std::uint32_t picture_height = 30;
 
-// Material i + hidden is material i that the camera does not see.
+// Material i + hidden is material i, hidden from the camera.
 constexpr std::uint32_t hidden = 3;
 
 struct Hiding {
@@ -125,7 +125,6 @@ std::vector<Hiding> closed_scenes() {
     return scenes;
 }
 
-// Five operations round twice each.
 constexpr double few_roundings = 8.0 * 0x1p-24;
 
 double largest_error(const std::vector<float> &image, const std::vector<float> &coverage, double radiance) {

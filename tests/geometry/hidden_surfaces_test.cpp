@@ -1,4 +1,3 @@
-// Regions in which hidden surfaces confine paths.
 #include "lib/view/gpu_scene.h"
 #include "lib/view/kernel_surfaces.h"
 #include "lib/view/scene_features.h"

@@ -1,4 +1,3 @@
-// Compares two kinds of rays with long double: rays towards a huge sphere, and rays that start a few ulp off a sphere.
 #include "intersection.spv.h"
 #include "lib/view/gpu_scene.h"
 #include "tests/kernel/probe.h"
@@ -39,7 +38,7 @@ struct Ball {
 
 enum class Held { AsTheSceneNeeds, ByItsCenter };
 
-// The ball moves by a 32nd of its radius, and is at rest at the rays' time. The kernel stores the ball's center.
+// The ball moves by a 32nd of its radius, and is at rest at the rays' time.
 std::vector<Met> follow(const Ball &ball, const std::vector<Ray> &rays, Held held = Held::AsTheSceneNeeds) {
     pt::Scene scene;
     scene.materials = {{{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0}};
@@ -213,8 +212,8 @@ TEST(Intersection, CurvedPlanesAreMetFromFarAway) {
     expect_within_bounds(worst);
 }
 
-// Rays that start outside never hit the sphere again. Rays that start inside hit the far wall. If the chord is t = 2 s
-// / k, the slope's error of 8 eps becomes 16 eps R = 8 eps t / s.
+// Rays that start outside never hit the sphere again. Rays that start inside hit the far wall. The chord is t = 2 s /
+// k, so the slope's error of 8 eps gives t an error of 16 eps R = 8 eps t / s.
 TEST(Intersection, RaysThatLeaveAHugeSphereMeetItAgainFromInsideOnly) {
     for (const double radius : {1e3, 1e6, 1e9}) {
         RandomRays random(3);
@@ -252,7 +251,8 @@ bool met_by_sign(const Ball &ball, const Ray &ray) {
     return b + half_chord > 0.0F;
 }
 
-// Within 3 eps r float32 cannot tell the side. A ray inwards then hits the sphere either at once or at its far side.
+// Within 3 eps r of the surface, float32 cannot decide the side. A ray inwards then hits the sphere either at once or
+// at its far side.
 TEST(Intersection, NothingLeaksThroughASphereNearItsSurface) {
     RandomRays random(4);
     const Ball ball{{0, 0, 0}, 3.0};

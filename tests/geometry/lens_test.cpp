@@ -1,4 +1,3 @@
-// Compares images through a lens with exact cases. Random scenes with lenses are in tests/light/random_light_test.cpp.
 #include "tests/support/light_in_double.h"
 
 #include <pt/film.h>

@@ -1,4 +1,3 @@
-// Huge moving spheres have the mean light of fixed times. Slow spheres have the light of spheres at rest.
 #include "tests/support/batch_fixture.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/support/scene_of.h"
@@ -104,7 +103,7 @@ TEST_F(HugeMotion, OfALampTheOutsideIsSeen) {
         EXPECT_EQ(value, 4.0F) << "the lamp overhead fills the view";
 }
 
-// A lamp 3 above gives light of about height^-2, which changes by 1/4. The error of the midpoint rule is therefore
+// The light of a lamp 3 above is about height^-2, and the height changes by 1/4. The midpoint rule then has an error of
 // (1/4)^2 * 6 / 24 / 32^2 = 2e-5.
 TEST_F(HugeMotion, IsTheMeanOfFrozenTimes) {
     constexpr uint32_t times = 32;
@@ -145,7 +144,7 @@ TEST_F(HugeMotion, IsRefusedWhereItIsTooLong) {
     EXPECT_EQ(pt_accumulate(context(), &info), PT_OK) << "held by its center";
 }
 
-// Parallel views have no distance, so the view's width counts.
+// Parallel views have no distance, so the rule uses the view's width.
 TEST_F(HugeMotion, IsRefusedInNarrowParallelViews) {
     const pt_material shining{{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0, 0};
     const pt_sphere globe{{0, -1e7, 0}, 1e7, {1e6, 0, 0}, 0, 0};

@@ -33,7 +33,7 @@ TEST(Outlying, AreAGroundASunAndWhatMovesFarAway) {
     spheres[900] = {{0, 1e9, 0}, 1, {0, 0, 0}, 0, 0};
     spheres[0].motion[1] = 1000;
     EXPECT_EQ(outlying_of(spheres), Indices({0, 3, 900}));
-    spheres[1].center[0] = 15; // less than 16 times the distance of the others
+    spheres[1].center[0] = 15; // less than 16 times the distance of all other spheres
     EXPECT_EQ(outlying_of(spheres), Indices({0, 3, 900}));
 }
 

@@ -48,7 +48,7 @@ pt::Sphere ball_from_camera(const glm::dvec3 &place, double radius, const glm::d
     return {camera_position + place, radius, motion, 0};
 }
 
-// The limit is a view whose pixels have sides of 2^-14 of their distance: fov = 64 * 2^-14.
+// The limit is a view whose pixels have a side of 2^-14 of their distance: fov = 64 * 2^-14.
 TEST(RayStart, IsThePinholeInWideViews) {
     EXPECT_EQ(start_of({ball_from_camera(1e6 * oblique, 1)}, {}, looking_along(oblique, 4.0e-3)), 0.0);
     EXPECT_GT(start_of({ball_from_camera(1e6 * oblique, 1)}, {}, looking_along(oblique, 3.8e-3)), 0.9e6);
@@ -56,7 +56,7 @@ TEST(RayStart, IsThePinholeInWideViews) {
 
 constexpr double narrow = 1e-5;
 
-// The margin is half the view's diagonal at that distance, 7.07e-6 of the distance.
+// The margin is half the view's diagonal at this distance, 7.07e-6 of the distance.
 TEST(RayStart, IsJustBeforeTheFirstSurfaceInView) {
     const pt::Camera camera = looking_along(oblique, narrow);
     const double width = std::tan(0.5 * narrow) * std::sqrt(2.0);
@@ -105,7 +105,7 @@ TEST(RayStart, IsInsideOfWhatHoldsTheCamera) {
     EXPECT_EQ(start_of({}, {{{0, 1, 0}, -2, 0}}, camera), 0.0) << "the camera is on the plane";
 }
 
-// Five eighths of the diagonal are 1.25 times half of it, or 1.25 sqrt(2) for side 2.
+// Five eighths of the diagonal are 1.25 times its half, or 1.25 sqrt(2) for side 2.
 TEST(RayStart, OfParallelRaysIsFiveEighthsOfTheDiagonalBeforeTheFirstSurface) {
     const pt::Camera camera = parallel_along(oblique, 2.0);
     const double before = 1.25 * std::sqrt(2.0);
@@ -195,8 +195,8 @@ TEST(RayStart, NothingInViewIsBeforeIt) {
     EXPECT_GT(near_misses[1], 1000) << "the bound is of use";
 }
 
-// Within these margins float32 may see a point on either side of a surface. Lists of spheres that are larger by the
-// margin, or smaller around the camera, give the tree's start.
+// Float32 may place points within this margin on either side of a surface. The tree's start is therefore compared with
+// lists of larger spheres. Spheres around the camera are smaller in the lists.
 TEST(RayStart, OfATreeIsThatOfItsSpheres) {
     std::mt19937 engine(7);
     const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(engine); };

@@ -24,7 +24,7 @@ namespace sphere_arrays {
 
 namespace {
 
-// The allocation ends with the last element, so sanitizers detect reads beyond it.
+// The allocation ends with the last element, so that sanitizers detect reads beyond it.
 class ColumnCopy {
 public:
     template <typename Number>

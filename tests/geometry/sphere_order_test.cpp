@@ -1,4 +1,4 @@
-// Tests the shape of a tree, which must fit into the kernel's stack for any input.
+// The depth of a tree must fit into the kernel's stack for any input.
 #include "lib/tree/sphere_order.h"
 #include "shaders/gpu_layout.h"
 
@@ -129,7 +129,7 @@ TEST(SphereOrder, LeavesTheFirstOfTwins) {
     expect_well_linked(shape);
 }
 
-// Reading bits is slow. They are read once for the hash, and again for spheres with equal hashes.
+// Reading bits is slow. Each sphere is read once for its hash, and again if other spheres have this hash.
 TEST(SphereOrder, ReadsTheBitsOfASphereThreeTimesAtTheMost) {
     for (const bool are_twins : {false, true})
         for (const Kind &kind : kinds()) {

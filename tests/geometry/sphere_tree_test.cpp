@@ -1,4 +1,3 @@
-// Tests the tree buffer: boxes, lamps, twins, and bounds of distances from cameras.
 #include "tests/geometry/heap_tree.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +20,7 @@ TEST(SphereTree, BoxesHoldTheirSpheresAtAllTimes) {
     }
 }
 
-// Radii and motions of up to 2^30 steps have a rounding error of half of 2^-23.
+// Radii and motions of up to 2^30 steps are rounded by half of 2^-23.
 TEST(SphereTree, StaysWithinReach) {
     for (const double scale : {1e-18, 1.0, 1e17})
         for (const double motion : {0.0, 1.0}) {
@@ -166,7 +165,7 @@ TEST(SphereTree, HasWaysIfWhatIsLeftOutMoves) {
     EXPECT_TRUE(has_ways(tree_with(one, spheres, {0, 100})));
 }
 
-// A sphere takes 16 bytes, and 4 of material. A node of 48 bytes has three spheres, or two with empty children.
+// A sphere takes 20 bytes with its material. A node of 48 bytes has three spheres, or two spheres with empty children.
 TEST(SphereTree, TakesNoMoreThan48BytesASphere) {
     std::vector<pt_sphere> spheres = heap(100'000, 0.0);
     for (pt_sphere &sphere : spheres)
@@ -189,7 +188,7 @@ TEST(SphereTree, TakesNoMoreThan48BytesASphere) {
     EXPECT_EQ(colored.sphere_words()[frame.first_color + 777].z, 723U | 723U << 10 | 723U << 20);
 }
 
-// A sphere lies at (p - camera) step + shift. The error is the rounding of shift, which is about as long as the
+// A sphere lies at (p - camera) step + shift. The error comes from rounding shift, which is about as long as the
 // distance of a far camera.
 TEST(SphereTree, FramesPutSpheresWhereTheyAre) {
     const std::vector<pt_sphere> spheres = heap(100, 0.0);

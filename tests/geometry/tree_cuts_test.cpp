@@ -17,8 +17,8 @@ namespace {
 
 using Items = std::vector<pt::TreeItem>;
 
-// Coordinates below 4 have rounding errors of 2^-23, and the side of a box has 2^-22. The error of half the surface is
-// 2^-21 times the sum of the sides, which is below 15.
+// Coordinates below 4 are rounded by 2^-23, and sides of boxes by 2^-22. The error of half the surface is 2^-21 times
+// the sum of the sides, which is below 15.
 constexpr double surface_error = 15 * 0x1p-21;
 
 pt::Part part_of(Items &items) {
@@ -103,8 +103,8 @@ TEST(TreeCuts, OfFewSpheresAreTheBest) {
     }
 }
 
-// Some cut lies within half a bin of x = 1/2, where bins are 1/8 wide. Costs are proportional to x^2 + (1 - x)^2, so
-// this cut costs 1/60 more than the best one. Random positions add to this.
+// Some cut lies within half a bin of x = 1/2, and bins are 1/8 wide. Costs are proportional to x^2 + (1 - x)^2, so this
+// cut costs at most 1/60 more than the best one. Random positions add to this.
 TEST(TreeCuts, OfManySpheresAreAboutTheBest) {
     std::mt19937 engine(5);
     std::uniform_real_distribution<float> share(0.0F, 1.0F);

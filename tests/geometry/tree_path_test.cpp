@@ -1,4 +1,4 @@
-// Walks in steps (tree_path.glsl) have the bits of whole walks if the driver rounds as written.
+// Walks in steps (tree_path.glsl) must have the bits of whole walks if the driver rounds as written.
 #include "tests/geometry/tree_scenes.h"
 #include "tests/kernel/kernel_render.h"
 #include "tests/support/checked_scene_of.h"
@@ -21,8 +21,6 @@ pt::PreparedScene all_in_a_tree(const pt::Scene &scene) {
     return prepared_scene_of({scene.materials, {spheres, {}}, scene.planes}, 1);
 }
 
-// The scenes have one lamp, a few lamps that are each sampled, more lamps than branches, or many lamps. The paths have
-// one vertex, one direction, or Russian roulette.
 TEST(TreePath, TakeTheSamplesOfWholeWalks) {
     TreeScenes scenes(23);
     const bool is_exact = probe_device().info().kind == PT_DEVICE_CPU;

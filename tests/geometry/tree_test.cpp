@@ -67,7 +67,7 @@ struct Compared {
 };
 
 Compared compare(const pt::PreparedScene &prepared, const pt::Camera &camera) {
-    // Without boxes, the spheres use up the 65,535 loop rounds that some drivers allow.
+    // Without boxes, the spheres use up the 65,535 rounds of a loop that some drivers allow.
     const std::size_t spheres = prepared.tree->sphere_count();
     KernelRender render(pt::gpu_scene(prepared, camera, KernelRender::settings(spheres > 100 ? 2 : 4)));
     render.take(spheres > 400 ? 2 : spheres > 40 ? 4 : 8);
@@ -161,8 +161,8 @@ TEST(Tree, RaysFromFarAwayFindWhatTestingEverySphereFinds) {
         EXPECT_TRUE(compare(scene, far_away(tan_half_fov)).same) << tan_half_fov;
 }
 
-// Compares with a tree that keeps the shape of the reflected spheres' tree. Its boxes are as good, but in reverse
-// order. Returns nothing if the trees are equal or no shape was kept.
+// Compares with a tree that has the shape of the reflected spheres' tree. Its boxes are as good, but in reverse order.
+// Returns nothing if the trees are equal or no shape was kept.
 std::optional<bool> is_seen_alike(const pt::Scene &scene, const pt::Camera &camera) {
     const std::vector<pt_sphere> spheres = caller_spheres(scene.spheres);
     std::vector<pt_sphere> reflected = spheres;

@@ -1,4 +1,3 @@
-// Finds surfaces that count as one, and lamps close to another sphere.
 #include "lib/view/twins.h"
 
 #include <gtest/gtest.h>

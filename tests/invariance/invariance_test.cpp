@@ -1,4 +1,3 @@
-// Tests changes of a scene that must keep all bits of its image.
 #include "tests/invariance/invariance_scene.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/render_image.h"
@@ -79,8 +78,8 @@ TEST_P(Invariance, Origin) {
 }
 
 // Sums at 1e6 are rounded to 2^-34, which can change a float32 by 2^-23. The ends of rays then move by up to 1e-6 of
-// the scene's size. A few of the 2048 * 16 paths hit another surface, and each has about 1e-5 of the light. The light
-// of the other paths changes by about 1e-6.
+// the scene's size. A few of the 2048 * 16 paths then hit another surface. Each path has about 1e-5 of the light. The
+// light of the other paths changes by about 1e-6.
 TEST_P(Invariance, OriginRounded) {
     InvarianceScene original = scene();
     original.turn({{0.36, 0.48, -0.8}, {-0.8, 0.6, 0}, {0.48, 0.64, 0.6}});

@@ -40,7 +40,7 @@ TEST(GpuLayout, WhatTheSceneDoesNotUseIsNotInTheBuffer) {
     EXPECT_EQ(gpu_scene.words.size(), 9U);
 }
 
-// Curved planes come before flat ones. A lamp with a radius of 2048 times its distance becomes a curved plane.
+// Curved planes come before flat planes. A lamp whose radius is 2048 times its distance becomes a curved plane.
 TEST(GpuLayout, HugeSpheresArePlanesWithACurvature) {
     pt::Scene scene = small_scene();
     scene.spheres.push_back({{0, -1026, 1}, 1024, {0, 0, 0}, 0});
@@ -98,7 +98,7 @@ TEST(GpuLayout, TheFilmUnitFollowsTheBrightestLampInUse) {
     EXPECT_EQ(pt::PreparedScene(scene).film_unit, 1.0); // unused materials do not count
 }
 
-// The film rejects light with a sign.
+// The film rejects light with a sign, even zeros.
 TEST(GpuLayout, ALampsNegativeZeroIsZero) {
     pt::Scene scene = small_scene();
     scene.materials[2].emission.r = -0.0F;

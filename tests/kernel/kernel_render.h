@@ -1,4 +1,4 @@
-// Runs the path-tracing kernel on a small film. The test chooses scene and constants.
+// Runs the path-tracing kernel on a small film.
 #pragma once
 
 #include "lib/code/shader_source.h"

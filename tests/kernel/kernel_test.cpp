@@ -1,4 +1,3 @@
-// Runs the kernel like Renderer, with unusual policies.
 #include "lib/kernel/device_film.h"
 #include "lib/kernel/kernel.h"
 #include "lib/kernel/trace_pipelines.h"

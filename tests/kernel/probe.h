@@ -32,7 +32,7 @@ public:
     }
     void set_points(std::span<const pt::PointBlock> blocks) { points_.assign(blocks.begin(), blocks.end()); }
 
-    // Runs one invocation per item with the input at binding 3. Returns binding 2, which is initially zero. The guard
+    // Runs one invocation per item. The input is at binding 3. Returns binding 2, which is initially zero. The guard
     // words after it must stay unchanged.
     template <typename Output, typename Push>
     std::vector<Output> run(std::span<const glm::vec4> input, std::size_t output_count, const Push &push,

@@ -1,4 +1,3 @@
-// The path tracer gives the same bits from constants, uniform or storage buffers.
 #include "tests/invariance/invariance_scene.h"
 #include "tests/kernel/kernel_render.h"
 #include "tests/kernel/table_words.h"
@@ -63,7 +62,7 @@ InvarianceScene diffuse_scene() {
     return scene;
 }
 
-// These devices can read a scene from several kinds of memory. On other devices, rounding may depend on the kind.
+// Uses devices that can read a scene from several kinds of memory. On other devices, rounding may depend on the kind.
 class SceneSource : public testing::Test {
 protected:
     void SetUp() override {
@@ -98,7 +97,7 @@ TEST_F(SceneSource, KeepsTheBitsOfADiffuseSceneWithManyLamps) {
     EXPECT_FALSE(same.holds(gpu::SCENE_IN_STORAGE, table));
 }
 
-// All numbers are constant, which lets compilers reorder products.
+// All numbers are constants, so compilers may reorder products.
 TEST_F(SceneSource, KeepsTheBitsWithOneLampMotionGlossAndAHugeSphere) {
     InvarianceScene scene = scene_with_lamps(1);
     scene.camera.shutter_close = 1.0;

@@ -136,7 +136,7 @@ TEST(Schedule, DoesAllWorkOnceNearTheTarget) {
         {"a fast GPU", full_hd, 5000, constant_device(3e9), 1.0},
         {"speed falls to a tenth", full_hd, 400, throttled_device(1e8, 2e8), 0.99},
         {"speed falls below a sample", full_hd, 100, throttled_device(1e8, 5e7), 0.99},
-        // Two slices differ by a factor > 2 with the probability (1 - ln 2 / (2 ln 1.5))^2 = 0.02.
+        // Two times differ by a factor > 2 with the probability (1 - ln 2 / (2 ln 1.5))^2 = 0.02.
         {"a noisy clock", 25 * 10, 200000, noisy_device(1e8), 0.95}};
     for (const DeviceCase &each : cases) {
         SCOPED_TRACE(each.name);
@@ -154,7 +154,7 @@ TEST(Schedule, VerySlowDevicesGetOneTileAtATime) {
         ASSERT_EQ(steps[i].tile_count, 1U);
 }
 
-// Some drivers limit loop rounds, so slices have a largest size.
+// Slices have a largest size, because some drivers limit loop rounds.
 TEST(Schedule, VeryFastDevicesGetTheLargestSlice) {
     for (const std::uint32_t most : {3U, 1024U}) {
         pt::ScheduleLimits limits = usual_limits();
@@ -206,7 +206,7 @@ TEST(Schedule, LearnsFromASliceOfFullSizeAtOnce) {
     EXPECT_EQ(pt::Schedule({0.05, 0.25, 1}).budget(), 64.0);
 }
 
-// The time of a slice of one tile is mostly overhead. The device is 78 times as fast as the time suggests.
+// The time of a slice of one tile is mostly overhead, so the device is 78 times as fast as it seems.
 TEST(Schedule, SmallSlicesChangeLittle) {
     pt::ScheduleLimits limits = usual_limits();
     limits.first_slice_paths = 5e6;

@@ -1,4 +1,3 @@
-// Run-time compilation gives the embedded words. Broken files give messages.
 #include "lib/code/shader_source.h"
 
 #include "lib/base/error.h"
@@ -114,7 +113,7 @@ TEST_F(ShaderSourceTest, AFolderIsNoFile) {
     expect_complaint(shaders.file("folder") + ": Is a directory");
 }
 
-// Include guards permit recursion, so the compiler must limit it.
+// Include guards do not end this recursion, so the compiler must.
 TEST_F(ShaderSourceTest, AnEndlessIncludeIsRefused) {
     shaders.write("circle.glsl", "#ifndef CIRCLE\n#define CIRCLE\n#include \"arc.glsl\"\n#endif\n");
     shaders.write("arc.glsl", "#include \"circle.glsl\"\n#include \"circle.glsl\"\n");

@@ -16,7 +16,7 @@ namespace {
 
 using Code = std::vector<std::uint32_t>;
 
-constexpr std::uint32_t last_about_others = 16; // opcodes of names, entry points and modes end here
+constexpr std::uint32_t last_about_others = 16; // the last opcode of names, entry points and modes
 constexpr std::uint32_t op_spec_constant_op = 52;
 constexpr std::uint32_t op_function = 54;
 constexpr std::uint32_t op_function_call = 57;
@@ -63,7 +63,7 @@ TEST(SpecialisedCodeTest, LeavesToTheDriverWhatItDoesNotKnow) {
     EXPECT_TRUE(is_left([](Code &code) { code[5] &= 0xffffU; })) << "an instruction of no words";
 }
 
-// Calls and branches must have targets. Phis must have values from all predecessors. Decorations such as NoContraction
+// Calls and branches must have targets. Phis must have a value from each predecessor. Decorations such as NoContraction
 // must stay.
 void expect_whole(const Code &code, const Code &kernel) {
     const std::vector<Code> instructions = instructions_of(code);

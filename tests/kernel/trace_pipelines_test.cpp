@@ -94,7 +94,7 @@ TEST_F(TracePipelinesTest, WhoPollsKeepsTheKernelThatThereIs) {
     EXPECT_NE(trace(other_ball, 100.0), any);
 }
 
-// The least recently used kernel was dropped and is built again. The new one may have the same address.
+// The least recently used kernel is dropped and built again. The new one may have the same address.
 TEST_F(TracePipelinesTest, AHandfulIsKept) {
     use(false);
     const auto of_lamps = [&](std::uint32_t lamp_count) {

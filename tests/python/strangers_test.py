@@ -1,5 +1,3 @@
-"""Special files such as pipes must be refused at once. Control characters must not be printed."""
-
 import contextlib
 import io
 import os

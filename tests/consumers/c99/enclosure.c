@@ -1,5 +1,5 @@
-/* A user's program in C99. Inside an emitting ball, every pixel must have exactly the ball's radiance. Negative
- * control: an argument replaces the expected radiance. */
+/* A user's program in C99. Inside an emitting ball, every pixel must have exactly the ball's radiance. With an argument
+ * the expected radiance is wrong, as a negative control. */
 #include <pt/pt.h>
 
 #include <stdio.h>

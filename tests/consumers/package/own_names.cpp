@@ -1,4 +1,4 @@
-// A user's C++ program that has its own namespace pt and the library's internal names.
+// A user's C++ program with its own namespace pt. Its names are also names of the library's internals.
 #include <pt/pt.h>
 
 #include <iostream>
@@ -7,12 +7,10 @@
 
 namespace pt {
 
-// An internal function of libpt has this signature.
 const char *result_name(pt_result) {
     return "a name of the program's";
 }
 
-// An internal class of libpt has this name.
 class Error : public std::runtime_error {
 public:
     Error(pt_result code, const std::string &message);

@@ -1,4 +1,4 @@
-// Broken on purpose: skips value 100, and writes an additional value for the argument 2.
+// Faulty on purpose: skips value 100, and writes an additional value for the argument 2.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 

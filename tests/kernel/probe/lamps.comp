@@ -11,7 +11,7 @@ layout(push_constant) uniform Push { vec4 position; vec4 normal_time; uint surfa
 struct Drawn {
     vec4 direction_distance;
     uint lamp;
-    float density;     // of the direction per solid angle, if this lamp is chosen
+    float density;     // density of the direction per solid angle, given the lamp
     float hit_density; // density of the direction if lamps are found by chance
     float probability;
 };

@@ -9,7 +9,7 @@ layout(local_size_x = WORKGROUP_SIZE) in;
 layout(push_constant) uniform Push { vec4 position; vec4 normal; uint surface; uint seed; uint count; };
 
 struct Drawn {
-    vec4 direction_density; // w: density per solid angle, of all spots of the surface
+    vec4 direction_density; // w: density per solid angle, over all spots of the surface
     uint surface;
     float distance;
     uint reserved[2];
