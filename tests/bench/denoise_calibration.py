@@ -2,13 +2,13 @@
 
     python3 tests/bench/denoise_calibration.py [--own] [--images FOLDER] ...
 
---own takes the scenes of cli/scenes and calibration_scenes.py. --hundred SEED takes scenes of tests/bench/random_scenes.py.
+--own renders the scenes of cli/scenes and calibration_scenes.py. --hundred SEED renders scenes of random_scenes.py.
 PT_LIBRARY and PT_PROGRAM name the library and the program. Needs NumPy and Open Image Denoise (pip install pyoidn, or
-LD_LIBRARY_PATH). --images keeps renderings in the folder and uses them again. --render renders only.
+LD_LIBRARY_PATH). --images keeps images in the folder and uses them again. --render renders only.
 
-An image has two halves of samples. Errors are differences to an image of many samples. A denoised image is worse if its
-error exceeds the raw image's error by more than 2%. "light" is the difference between the means of both images, divided by
-the standard error of the raw image.
+Errors are differences from an image of many samples. A denoised image is worse if its error exceeds the raw image's
+error by more than 2%. "light" is the difference between the means of both images, divided by the standard error of the
+raw image.
 """
 
 import argparse

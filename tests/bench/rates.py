@@ -5,8 +5,8 @@
 Each round runs all cases in turn. Figures are medians.
 
 samples/s       from the difference of two sample counts, per wall second of sampling and per CPU second (not on a GPU)
-first, cold     seconds to create the context and take the first sample without compiled kernels
-first, warm     the same with kernels compiled by an earlier process
+first, cold     seconds to create the context and take the first sample, including the compilation of kernels
+first, warm     seconds with kernels that an earlier process compiled
 start to PNG    wall seconds of the whole process for 16 samples, warm
 """
 

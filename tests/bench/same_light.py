@@ -3,11 +3,11 @@
     PT_LIBRARY=build/lib/libpt.so PT_PROGRAM=build/bin/pt python3 tests/bench/same_light.py [--scenes NAME ...]
         [--pairs N] [--random SEED] [--changes | --samples]
 
-Without --changes and --samples it tests N pairs of equal light for each scene and kind of pair. Each image has its own seed. The second
-image of a pair may have another method or number of samples. The scenes are the benchmark's and ten difficult ones (lamps below a pixel,
-caustics, mostly black), or with --random the hundred of random_scenes.py.
+Without --changes and --samples it tests N pairs of images of equal light for each scene and kind of pair. The images
+have different seeds, and may have different methods and numbers of samples. The scenes are the benchmark's and those of
+calibration_scenes.py, or with --random the hundred of random_scenes.py.
 --changes counts the scenes that show a change of their brightest lamp, a material, a tile or a density in a kernel.
---samples finds, by doubling, the samples of two images that show a change of a given size.
+--samples doubles the samples of two images until they show a change of a given size.
 
 """
 

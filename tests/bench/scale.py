@@ -8,15 +8,14 @@ balls in place of the lamps, so the difference is the cost of choosing lamps. be
 measures all programs in turn. Figures are medians.
 
 scene           seconds of pt_set_scene, or of building Mitsuba's scene
-bytes           device memory per sphere: pt_stats.device_bytes with and without the cloud
+bytes           device memory per sphere, from pt_stats.device_bytes with and without the cloud
 first           seconds from the scene to a picture of one sample at the first path length, including compilation
-M/s, M/CPU s    million samples per wall and per CPU second (not on a GPU). From path length 3 on, a sample of pt follows
-                1 to 4 paths from its first vertex, and a sample of Mitsuba follows one
+M/s, M/CPU s    million samples per wall and per CPU second (not on a GPU)
 
 --error-samples adds costs at equal error, at the first path length. The error is the relMSE (README.md) at this many
-samples, or 4 times as many in Mitsuba. The reference is the first library's picture with 64 times as many samples and
-another seed, and its error is included. The ratio is cost x relMSE, divided by the first library's. "off by" is the
-difference of the mean from the reference's, relative and in standard errors. Above 1% no ratio is stated.
+samples, or 4 times as many in Mitsuba. The reference is the first library's picture with 64 times as many samples. The
+ratio is cost x relMSE, divided by the first library's. "off by" is the difference of the mean from the reference's,
+relative and in standard errors. Above 1% no ratio is printed.
 """
 
 import argparse

@@ -2,10 +2,10 @@
 
     PT_LIBRARY=build/lib/libpt.so PT_PROGRAM=build/bin/pt python3 tests/bench/stated_error.py SET ... [--jobs N]
 
-A SET is `own` (cli/scenes and tests/bench/calibration_scenes.py), `random:SEED` (the hundred of random_scenes.py), or
-a folder of scene files. Errors are relative root mean squares over pixels and channels. They are measured against an image
-of many samples, whose error is at most a fifth of the measured one. The tables' rms is over seeds. --keep writes the
-estimator's input for some seeds as NumPy's .npz, to try other estimators.
+A SET is `own` (cli/scenes and calibration_scenes.py), `random:SEED` (the hundred of random_scenes.py), or a folder of
+scene files. Errors are relative root mean squares over pixels and channels, measured against an image of many samples.
+The error of this image is at most a fifth of the measured one. --keep writes the estimator's input for some seeds as
+NumPy's .npz.
 """
 
 import argparse

@@ -38,7 +38,7 @@ struct Ball {
 
 enum class Held { AsTheSceneNeeds, ByItsCenter };
 
-// The ball moves by a 32nd of its radius, and is at rest at the rays' time.
+// The kernel stores the center of a ball that moves. The rays' time is 0, so the motion has no effect.
 std::vector<Met> follow(const Ball &ball, const std::vector<Ray> &rays, Held held = Held::AsTheSceneNeeds) {
     pt::Scene scene;
     scene.materials = {{{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0}};

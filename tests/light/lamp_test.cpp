@@ -1,4 +1,3 @@
-// Compares the device's samples of lamps with the stated densities, and these densities with double precision.
 #include "lamps.spv.h"
 #include "shaders/specialization.h"
 #include "tests/kernel/probe.h"
@@ -24,7 +23,7 @@ struct Drawn {
     glm::vec3 direction;
     float distance;
     std::uint32_t lamp;
-    float density;     // of the direction per solid angle, if this lamp is chosen
+    float density;     // density of the direction per solid angle, given the lamp
     float hit_density; // density of the direction if lamps are found by chance
     float probability;
 };
@@ -60,12 +59,13 @@ std::vector<Drawn> draw(const std::vector<Lamp> &lamps, const Viewpoint &from, s
 
 const std::vector<Lamp> uneven_lamps = {
     {{0.5F, 3.0F, -1.0F}, 1.0F, 2.0F},       {{4.0F, -0.3F, 2.0F}, 0.8F, 30.0F},  // center below the horizon
-    {{-300.0F, 500.0F, 200.0F}, 0.5F, 1e6F}, {{-0.6F, 0.55F, 0.5F}, 0.9F, 0.01F}, // second one: 0.05 away
+    {{-300.0F, 500.0F, 200.0F}, 0.5F, 1e6F}, {{-0.6F, 0.55F, 0.5F}, 0.9F, 0.01F}, // the second lamp is 0.05 away
     {{0.0F, -5.0F, 0.0F}, 2.0F, 1e8F},                                            // wholly below the horizon
     {{-3.0F, 1.0F, 4.0F}, 0.02F, 5000.0F},   {{1.0F, 0.2F, -0.5F}, 0.1F, 1e-4F},
 };
 constexpr std::size_t below_horizon = 4;
-// Probabilities that are wrong by 3% add to a chi-square 2^19 * 0.03^2 = 472. Its standard deviation is below 4.
+// Probabilities that are wrong by 3% increase a chi-square by 2^19 * 0.03^2 = 472. The standard deviation of the
+// chi-square is below 4.
 constexpr std::uint32_t draws_of_lamps = 1U << 19;
 
 const double lamp_bound = statistics::normal_quantile(1e-6 / 2);
@@ -89,7 +89,7 @@ void expect_stated_probabilities(const std::vector<Lamp> &lamps) {
     EXPECT_GT(statistics::chi_square_deviate(observed, wrong), lamp_bound) << "probabilities wrong by 3% must show";
 }
 
-// The second scene has so few lamps that the kernel keeps the LampView of each (KEEP_VIEWS).
+// The second scene has so few lamps that the kernel keeps a LampView of each (KEEP_VIEWS).
 TEST(LampChoice, FollowsTheStatedProbability) {
     expect_stated_probabilities(uneven_lamps);
     std::vector<Lamp> few(uneven_lamps.begin(), uneven_lamps.begin() + 4);
@@ -97,8 +97,8 @@ TEST(LampChoice, FollowsTheStatedProbability) {
     expect_stated_probabilities(few);
 }
 
-// Nine tenths are chosen by radiance (r / d)^2 min(1, (n . v + r) / d), and one tenth evenly among lamps partly above
-// the horizon.
+// Nine tenths of the choices have weights of radiance (r / d)^2 min(1, (n . v + r) / d). One tenth is even among lamps
+// partly above the horizon.
 TEST(LampChoice, HasTheDocumentedProbability) {
     const std::vector<Drawn> drawn = draw(uneven_lamps, {}, 9, 64);
     std::vector<double> weights;

@@ -26,7 +26,6 @@ struct TreeVertex {
     std::uint32_t surface = 0xffffffffU;
 };
 
-// The output of lamps.comp.
 struct TreeDrawn {
     glm::vec3 direction;
     float distance;
@@ -152,8 +151,8 @@ void expect_what_is_stated(const std::vector<TreeDrawn> &drawn, const std::vecto
     }
 }
 
-// Over 72 chi-squares the bound allows one false alarm in a million, at 5.6 standard deviations. Errors of 10% add 2^16
-// * 0.1^2 = 655 to a chi-square, which is 15 standard deviations for 1000 lamps.
+// The bound for 72 chi-squares allows one false alarm in a million, at 5.6 standard deviations. Errors of 10% increase
+// a chi-square by 2^16 * 0.1^2 = 655. This is 15 standard deviations for 1000 lamps.
 TEST(LampTreeChoice, FollowsTheStatedProbability) {
     const double bound = statistics::normal_quantile(1e-6 / 72);
     for (const auto &[name, scene] : lamp_scenes::all()) {
@@ -177,8 +176,8 @@ TEST(LampTreeChoice, FollowsTheStatedProbability) {
     }
 }
 
-// Returns sum (w^2 / P) / (sum w)^2 - 1. It is 0 for weights alone, at most 1 / 9 with the uniform share, and 9 by
-// power alone.
+// Returns sum (w^2 / P) / (sum w)^2 - 1. The value is 0 if P is proportional to w. A tenth of even choices adds at most
+// 1 / 9, and choices by power alone have 9.
 double relative_variance(TreeProbe &probe, const pt::GpuScene &scene, const TreeVertex &vertex) {
     const std::vector<double> weights = lamp_weights(scene, vertex);
     const std::vector<double> probabilities = probe.probabilities(vertex);

@@ -1,4 +1,3 @@
-// Compares opacities with closed forms, and the light with a path tracer in double.
 #include "tests/support/light_in_double.h"
 
 #include <pt/stats.h>
@@ -22,7 +21,7 @@ using namespace light_in_double;
 
 class Opacity : public LightInDouble {
 protected:
-    // Returns the fraction of a sky's light (radiance 3, 4, 5) that passes black capsules.
+    // Returns the fraction of a sky's light that black capsules let through. The sky's radiance is (3, 4, 5).
     double share_passed(const std::vector<Given::Capsule> &capsules) {
         return mean(image(under_sky(capsules), 256)) / 4.0;
     }
@@ -82,7 +81,7 @@ Given cloud(std::uint32_t count) {
     return given;
 }
 
-// Five standard errors of 98,304 rays are at most .008. Negative control: opacities larger by 3%.
+// Five standard errors of 98,304 rays are at most .008. Negative control: opacities that are larger by 3%.
 TEST_F(Opacity, IsTheShareOfRaysThatMeet) {
     const auto passed = [&](float first, float second) {
         const std::vector<Given::Capsule> row{ball_at({0, 0, 2}, 1.0, first), ball_at({0, 0, -2}, 1.0, second)};
@@ -115,8 +114,8 @@ Given::Capsule rod(const glm::dvec3 &from, const glm::dvec3 &to, float opacity, 
     return {{from.x, from.y, from.z}, {to.x, to.y, to.z}, 1.0, material, opacity};
 }
 
-// The product of their transmitted fractions passes, even if most of their numbers are equal. Negative control:
-// duplicates, which count once.
+// The transmitted fractions multiply, even if the surfaces differ in one number. Negative control: duplicates, which
+// count once.
 TEST_F(Opacity, OfSurfacesThatDifferIsIndependent) {
     const glm::dvec3 atom(0, 0, 1);
     const std::vector<Given::Capsule> bonds{rod(atom, {2, 0, 1}, 0.5F), rod(atom, {0, 2, 1}, 0.5F)};
@@ -165,9 +164,9 @@ TEST_F(Opacity, OfColorsAndMotionsIsIndependent) {
     EXPECT_NEAR(passed({still, still}), 0.5, 0.008) << "duplicates";
 }
 
-// Every 16 consecutive points of a pixel's 256 fall into 16 equal intervals. The fraction of blocked rays then has a
-// standard deviation of at most 2 rays, and every pixel stays within five of them. Negative control: random numbers,
-// with 8 rays.
+// Every 16 consecutive points of a pixel's 256 fall into 16 equal intervals. The number of blocked rays then has a
+// standard deviation of at most 2, and every pixel must be within five standard deviations. Negative control: random
+// numbers, whose standard deviation is 8.
 TEST_F(Opacity, OfOneSurfaceIsEvenlySpread) {
     Given given = under_sky({ball_at({0, 0, 1}, 1.0, 0.4F)});
     std::ranges::fill(given.materials[2].emission, 1.0F);
@@ -202,7 +201,7 @@ double variance_of_two(double opacity, std::uint32_t count) {
 }
 
 // Every 16 samples have another lattice. The mean square over 6,144 pixels must be within five standard errors of the
-// expected value, and the stated error at most a tenth too small. Negative control: one lattice for all pixels.
+// expected value. The stated error may be a tenth too small. Negative control: one lattice for all pixels.
 TEST_F(Opacity, OfTwoSurfacesHasManyLattices) {
     Given given = under_sky({ball_at({0, 0, 2}, 1.0, 0.4F), ball_at({0, 0, -2}, 1.0, 0.4F)});
     std::ranges::fill(given.materials[2].emission, 1.0F);

@@ -17,7 +17,7 @@ namespace {
 
 using Coordinates = std::vector<std::uint32_t>;
 
-// Whether each interval [i, i + 1) / 2^digits holds equally many points.
+// Whether all intervals [i, i + 1) / 2^digits hold equally many points.
 bool fills_intervals(const Coordinates &points, std::uint32_t digits) {
     std::vector<std::uint32_t> hits(std::size_t{1} << digits);
     for (const std::uint32_t point : points)
@@ -25,7 +25,7 @@ bool fills_intervals(const Coordinates &points, std::uint32_t digits) {
     return std::ranges::all_of(hits, [&](std::uint32_t count) { return count == points.size() >> digits; });
 }
 
-// Whether each box of 2^-digits_x by 2^-digits_y holds one of 2^(digits_x + digits_y) points.
+// Whether each box of 2^-digits_x by 2^-digits_y holds one of the 2^(digits_x + digits_y) points.
 bool fills_boxes(const Coordinates &x, const Coordinates &y, std::uint32_t digits_x, std::uint32_t digits_y) {
     std::vector<std::uint32_t> hits(x.size());
     for (std::size_t i = 0; i < x.size(); ++i)
@@ -90,7 +90,7 @@ TEST(RadicalInverse, OfTheLastDimensionMatchesItsDigits) {
             place /= 311.0L;
             value += place * static_cast<long double>(rest % 311);
         }
-        // long double has 64 bits of mantissa, so only values within 2^-30 of an integer may have a wrong floor.
+        // The mantissa of long double has 64 bits, so only values within 2^-30 of an integer may have a wrong floor.
         const long double scaled = value * 4294967296.0L;
         EXPECT_NEAR(static_cast<double>(scaled), pt::radical_inverse(index, pt::sequence_dimensions - 1) + 0.5, 0.501)
             << "index " << index;
@@ -108,7 +108,7 @@ constexpr std::uint32_t net_digits = 10;
 constexpr std::uint32_t net_size = 1U << net_digits;
 constexpr std::uint32_t net_starts[] = {0, net_size, 77 * net_size, 0x80000000U, 0xffffffffU - net_size + 1};
 
-// A (0,1)-sequence in base 2: of each aligned block of 2^k points, each of 2^k intervals has one.
+// A (0,1)-sequence in base 2: each aligned block of 2^k points has one point in each of 2^k intervals.
 TEST(Sobol, EveryDimensionIsAZeroOneSequence) {
     for (std::uint32_t dimension = 0; dimension < pt::sequence_dimensions; ++dimension)
         for (const std::uint32_t start : net_starts)
@@ -117,7 +117,7 @@ TEST(Sobol, EveryDimensionIsAZeroOneSequence) {
                     << "dimension " << dimension << ", 2^" << digits << " points from " << start;
 }
 
-// A (0,2)-sequence in base 2: of each aligned block of 2^m points, each elementary box of volume 2^-m has one.
+// A (0,2)-sequence in base 2: each aligned block of 2^m points has one point in each elementary box of volume 2^-m.
 TEST(Sobol, TheFirstTwoDimensionsAreAZeroTwoSequence) {
     for (const std::uint32_t start : net_starts) {
         const Coordinates x = sobol_coordinates(start, net_size, 0);
@@ -127,7 +127,7 @@ TEST(Sobol, TheFirstTwoDimensionsAreAZeroTwoSequence) {
     }
 }
 
-// A wrong dimension could repeat another one and still be a (0,1)-sequence.
+// A wrong dimension could repeat another dimension, and still be a (0,1)-sequence.
 TEST(Sobol, DimensionsDiffer) {
     std::vector<Coordinates> all;
     for (std::uint32_t dimension = 0; dimension < pt::sequence_dimensions; ++dimension)
@@ -279,7 +279,8 @@ TEST(PointTable, BranchesArePointsOfTheirOwnInTheDimensionsThatTheyDoNotShare) {
     }
 }
 
-// Sample 2^30 + i has the points 2^32 + 4 i + b. Their low 32 bits repeat, so another scramble must tell them apart.
+// The points of sample 2^30 + i are 2^32 + 4 i + b. Their low 32 bits repeat, so another scramble must distinguish
+// them.
 TEST(PointTable, OfSobolRepeatsNoPoint) {
     const pt::PointLayout layout{{3, 2, 4, 4}, 2, 4};
     const auto row_of = [&](std::uint32_t index) {

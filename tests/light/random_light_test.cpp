@@ -69,7 +69,8 @@ public:
             add_rods(given);
         set_camera(given, picture.kind);
         picture.expected = given;
-        // Narrow and parallel views start near a surface. Like trees, they have smaller float32 errors.
+        // Rays of narrow and parallel views start near a surface. Like rays through trees, they have smaller float32
+        // errors.
         const bool tells_more = picture.has_tree || given.camera.vertical_fov != 0.8;
         if (picture.kind == twins)
             add_twins(given, tells_more ? 0.0 : 1e-7);
@@ -194,8 +195,8 @@ protected:
         return deviation(picture.has_tree ? with_tree_.get() : context(), given, exact, render);
     }
 
-    // The sum of deviations over the standard deviation of Student's t with 11 degrees of freedom. It is clamped for
-    // images without noise.
+    // Returns the sum of deviations, divided by the standard deviation of Student's t with 11 degrees of freedom.
+    // Images without noise would have infinite deviations.
     static double pooled(const std::vector<double> &deviations) {
         double sum = 0.0;
         for (const double deviation : deviations)
@@ -221,7 +222,7 @@ Given turned(const Picture &picture) {
     return other;
 }
 
-// Returns the picture with every estimator, which take turns with all samplers. The other kinds have one of each.
+// In pictures of the kind `estimators`, every estimator takes part, and the samplers take turns.
 std::vector<pt_render> renders_of(const Picture &picture, std::uint32_t seed) {
     if (picture.kind != estimators)
         return {picture.render};
@@ -236,8 +237,8 @@ std::vector<pt_render> renders_of(const Picture &picture, std::uint32_t seed) {
 }
 
 // The bounds allow one false alarm in a thousand runs for images and blocks, and one in ten thousand for all together.
-// Negative controls are lobes with 3% more in one scene of each kind. With trees, lamps that are 3% brighter and
-// another view are further controls.
+// The negative control of one scene of each kind has lobes larger by 3%. With trees, lamps brighter by 3% and another
+// view are further controls.
 TEST_F(RandomLight, IsThatOfAPathTracerInDouble) {
     const double bound = student_bound(1e-3 / (28.0 * scene_count()), image_count); // at most two renders a scene
     std::vector<double> deviations;

@@ -30,7 +30,7 @@ TEST(SamplerSobol, ScramblesDifferBetweenPixelsDimensionsAndSeeds) {
     EXPECT_EQ(distinct.size(), taken);
 }
 
-// Point 0 is the origin, so its numbers are scramble and shift alone. Their first digits must be independent between
+// Point 0 is the origin, so its numbers consist of scramble and shift. Their first digits must be independent between
 // the blocks of a path, or Russian roulette is wrong at low sample counts.
 std::vector<std::vector<std::uint32_t>> scrambles_of_blocks(int component_index) {
     std::vector<std::vector<std::uint32_t>> blocks;
@@ -58,8 +58,8 @@ double triple_deviate(const std::vector<std::uint32_t> &x, const std::vector<std
     return statistics::chi_square_deviate(observed, std::vector<double>(cells, static_cast<double>(x.size()) / cells));
 }
 
-// A pixel's shifts are multiples of one word. If the factors of three blocks, with small weights, summed to 0, the
-// shifts would lie on few planes.
+// The shifts of a pixel are multiples of one word. They would lie on few planes if the factors of three blocks, with
+// small weights, summed to 0.
 TEST(SobolScrambling, IsIndependentAmongThreeBlocksOfAPath) {
     for (const int which : {0, 1, 2}) {
         const auto blocks = scrambles_of_blocks(which);

@@ -72,7 +72,7 @@ TEST_P(Sampler, IsRandomBeyondTheTable) {
     EXPECT_EQ(take(GetParam(), request) == take(PT_SAMPLER_RANDOM, request), GetParam() == PT_SAMPLER_RANDOM);
 }
 
-// The numbers need no table, and B i + b may exceed 2^32.
+// The random numbers have no table. B i + b may exceed 2^32.
 TEST(SamplerRandom, BranchesAreSamplesOfTheirOwn) {
     constexpr std::uint32_t branches = 4;
     Request request;
@@ -111,7 +111,7 @@ TEST(SamplerHalton, IsTheRadicalInverseInEveryPixel) {
     }
 }
 
-// After the shared blocks, branch b of sample i is sample B i + b.
+// After the shared blocks, branch b of sample i has the numbers of sample B i + b.
 TEST(SamplerHalton, OfABranchIsTheRadicalInverseOfASampleOfItsOwn) {
     constexpr std::uint32_t branches = 4;
     Request request;
@@ -131,7 +131,7 @@ TEST(SamplerHalton, OfABranchIsTheRadicalInverseOfASampleOfItsOwn) {
         }
 }
 
-// Numbers are shifted digit by digit, or modulo 1. Truncation to 24 bits may change them by one unit.
+// Each pixel shifts the numbers, digit by digit or modulo 1. Truncation to 24 bits may change them by one unit.
 bool is_shifted_in_pixels(const Table &table, const Blocks &blocks, std::uint32_t sampler, const Request &request) {
     constexpr std::uint32_t mask = (1U << 24) - 1;
     const auto shift_of = [&](std::uint32_t place, int d) {
@@ -149,7 +149,7 @@ bool is_shifted_in_pixels(const Table &table, const Blocks &blocks, std::uint32_
     return true;
 }
 
-// The shifts keep Sobol's nets in every pixel.
+// These shifts keep Sobol's nets in every pixel.
 TEST(SamplerShifts, AreOneInEachPixelAndDimension) {
     Request request;
     request.pixel_count = 256;
@@ -165,7 +165,7 @@ TEST(SamplerShifts, AreOneInEachPixelAndDimension) {
         }
 }
 
-// Halton's points are uneven over pixels, and a correlation of 3% is detected.
+// Halton's points are uneven over pixels. A correlation of 3% is detected.
 TEST(SamplerChecks, NegativeControls) {
     Request request;
     request.pixel_count = 1U << 18;

@@ -139,7 +139,7 @@ TEST(SmallLamps, AreThoseThatTheCameraSees) {
     EXPECT_EQ(count_of({seen}, {wall}), 0U) << "behind a plane";
 }
 
-// The pixel sees the lamp's area for the time in which the lamp moves by one pixel.
+// The pixel sees the lamp's area while the lamp moves by one pixel.
 TEST(SmallLamps, AreSpreadByTheirMotion) {
     pt::Camera open = camera;
     open.shutter_close = 1.0;
@@ -158,7 +158,7 @@ TEST(SmallLamps, AreSpreadByTheirMotion) {
     }
 }
 
-// A veil passes 1 - opacity of the light. Veils lie around the lamp or before it, and lamps are small or large.
+// A veil transmits 1 - opacity of the light. Veils lie around the lamp or before it, and lamps are small or large.
 TEST(SmallLamps, ShineThroughVeils) {
     const double center[] = {1.0, 2.0, -97.0, 1.0, 2.0, -60.0, 31.0, 2.0, -60.0};
     const double radii[] = {10.0, 5.0, 5.0};
@@ -198,7 +198,7 @@ TEST(SmallLamps, AreSeenFromWithinACapsule) {
     EXPECT_TRUE(pieces_of({sphere_at(0.5, 0.5, 100, radius, lamp), first}).empty());
 }
 
-// If samples hit the lamp with probability p, the variance of its light E is E^2 p (1 - p).
+// If a sample hits the lamp with probability p, the variance of its light E is E^2 p (1 - p).
 TEST(SmallLamps, AddWhatSamplesShouldHaveMet) {
     const std::vector<pt::LampPiece> pieces{{3, 4, 0.125, 0.25, glm::dvec3(8, 0, 16)},
                                             {5, 6, 0.25, 0.5, glm::dvec3(4)}};
@@ -297,7 +297,7 @@ TEST(LampShare, IsThatOfTheSmallestLampThatMatters) {
     const std::vector<pt::Sphere> spheres{ball_at(2, 1, lamp), ball_at(9, 1, dark), ball_at(4, 1, lamp),
                                           ball_at(1, 50, lamp)};
     EXPECT_DOUBLE_EQ(smallest_share(spheres), smallest);
-    // 1/400 of the size gives less than a hundredth of the light.
+    // A lamp of 1/400 of the size has less than a hundredth of the light.
     std::vector<pt::Sphere> with_a_speck = spheres;
     with_a_speck.push_back(ball_at(80, 1, lamp));
     EXPECT_DOUBLE_EQ(smallest_share(with_a_speck), smallest);

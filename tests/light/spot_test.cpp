@@ -77,8 +77,8 @@ glm::dvec3 middle_of(const std::vector<DrawnSpot> &drawn, std::uint32_t surface)
     return glm::normalize(sum);
 }
 
-// Returns the mean of 1 / (density density_error) over a cone within the surface, as a normal deviate from the cone's
-// solid angle.
+// Returns the mean of 1 / (density density_error) over a cone within the surface. The mean is a normal deviate from the
+// cone's solid angle.
 double solid_angle_deviate(const std::vector<DrawnSpot> &drawn, std::uint32_t surface, double radius,
                            double density_error) {
     const glm::dvec3 middle = middle_of(drawn, surface);
@@ -100,7 +100,7 @@ struct SpotCase {
     const char *name;
     std::vector<SpotOf> spots;
     std::uint32_t surface;
-    double radius; // chord of the cone; it lies within the surface and has no very rare directions
+    double radius; // chord of a cone that lies within the surface and has no very rare directions
 };
 
 class SpotDirections : public testing::TestWithParam<SpotCase> {};

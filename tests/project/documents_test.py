@@ -1,4 +1,4 @@
-"""Compares the project's pages with the code. Files named in comments must exist."""
+"""Files named in comments must exist."""
 
 import pathlib
 import re
@@ -10,7 +10,7 @@ PAGES += [*(ROOT / "tests").glob("*/**/*.md"), *(ROOT / "lib").glob("*/*.md")]
 CURRENT = [page for page in PAGES if page.name not in ("CHANGELOG.md", "NOTEBOOK.md")]
 CODE = re.compile(r"\.(h|c|cpp|glsl|comp|diff|py|json|csv|cmake|sh)$|^CMakeLists\.txt$")
 
-# The largest numbers of words: of each page, and of all pages except the changes.
+# The largest numbers of words of each page, and of all pages without the changes.
 MOST_WORDS = {"README.md": 1220, "CONTRIBUTING.md": 1300, "cli/README.md": 4500, "shaders/README.md": 5850,
               "shaders/COURSEWORK.md": 1150, "tests/bench/README.md": 1200}
 MOST_WORDS_IN_ALL = 22_000
@@ -35,7 +35,7 @@ NUMBERS = (
 
 
 def anchors(text):
-    """The anchors that repository hosts make from headings: lower case, hyphens for blanks, no punctuation."""
+    """Makes the anchors that repository hosts make from headings: lower case, hyphens for blanks, no punctuation."""
     headings = re.findall(r"^#+ (.*)$", re.sub(r"```.*?```", "", text, flags=re.DOTALL), re.MULTILINE)
     names = re.findall(r'<a name="([^"]+)">', text)
     return {re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-") for heading in headings} | set(names)
@@ -59,7 +59,8 @@ def code_files():
 
 
 def names_of_code(text):
-    """The code spans that are identifiers with an underscore, and the code spans that name source files or folders."""
+    """Returns the code spans that are identifiers with an underscore, and the code spans that name source files or
+    folders."""
     spans = re.findall(r"`([\w./]+)(?:\(\))?`", re.sub(r"```.*?```", "", text, flags=re.DOTALL))
     others = {span for span in spans if re.search(r"/|\.(h|c|cpp|glsl|comp|py|json|md|sh|exr|png)$", span)}
     identifiers = {word for span in spans if span not in others for word in span.split(".") if "_" in word}

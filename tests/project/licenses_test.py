@@ -1,5 +1,5 @@
-"""Checks that cmake/licenses/parts.txt names all code of others: headers, linked libraries, and files with a license
-beside them."""
+"""cmake/licenses/parts.txt must name all code of others: headers, linked libraries, and files with a license beside
+them."""
 
 import os
 import pathlib
@@ -28,7 +28,7 @@ def parts():
 
 
 def foreign_headers(text):
-    """First folders, or the names, of other projects' headers."""
+    """Returns the first folders, or the names, of headers of other projects."""
     included = re.findall(r"^#include <([\w./-]+)\.h(?:pp)?>", text, re.MULTILINE)
     return {name.split("/")[0] if "/" in name else f"{name}.h" for name in included
             if name not in SYSTEM_HEADERS and not name.startswith("pt/")}
@@ -65,7 +65,7 @@ class Licenses(unittest.TestCase):
         found = included() | linked(rules) | copied()
         self.assertGreaterEqual(len(found), 15)
         self.assertEqual(sorted(found - set(parts())), [])
-        # Every row must be used. Rows of wheels, and of other versions of a package's library, are exempt.
+        # Every row must be used. Exempt are rows of wheels, and of other versions of a package's library.
         names = {parts()[each] for each in found}
         self.assertEqual(names ^ set(parts().values()), set())
 

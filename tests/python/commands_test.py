@@ -1,5 +1,3 @@
-"""--help must work without optional modules, and pages must have valid commands."""
-
 import pathlib
 import re
 import shlex

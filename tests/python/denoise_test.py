@@ -1,5 +1,3 @@
-"""Tests denoised images, with a stand-in for Open Image Denoise."""
-
 import os
 import pathlib
 import sys

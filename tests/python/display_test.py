@@ -1,5 +1,3 @@
-"""Displayed NumPy images and their files must have the program's bytes."""
-
 import json
 import os
 import pathlib

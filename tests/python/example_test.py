@@ -1,5 +1,3 @@
-"""Tests the package's example and the programs in its pages."""
-
 import contextlib
 import pathlib
 import re

@@ -1,5 +1,3 @@
-"""Sums of films have the bits of one rendering, also after pickling and files."""
-
 import pathlib
 import pickle
 import sys

@@ -1,5 +1,3 @@
-"""Tests scenes of Tachyon. Sections have exact values, and pictures are compared with Tachyon's. Damaged files are refused."""
-
 import json
 import math
 import pathlib
@@ -57,7 +55,7 @@ class Sections(unittest.TestCase):
         self.assertEqual(found.camera.position, (1, 2, 3))
         self.assertEqual(found.camera.up, (0, 1, -0.5))
         self.assertAlmostEqual(math.tan(found.camera.vertical_fov / 2), 1, 14)
-        # The target is the point on the view's axis nearest to (1.5, 2, -7), the middle of both spheres.
+        # The target is the point on the view's axis nearest to the middle of both spheres, (1.5, 2, -7).
         self.assertEqual(found.camera.target, (1, 2, -7))
         self.assertEqual(found.notes, [])
 
@@ -246,8 +244,8 @@ class Lamps(unittest.TestCase):
 
 class Pictures(unittest.TestCase):
     def test_the_first_surfaces_are_those_that_tachyon_shows(self):
-        """In Tachyon's pictures, ball i has red 10 (i + 1), and plane i has green 10 (i + 1). Tachyon samples the upper right corners of
-        pixels."""
+        """In Tachyon's pictures, ball i has the red 10 (i + 1), and plane i has the green 10 (i + 1). Tachyon samples
+        the upper right corners of pixels."""
         for name in ("perspective", "parallel"):
             with self.subTest(name):
                 found = read(DATA / f"{name}.dat")

@@ -1,5 +1,3 @@
-"""Traced samples against independent computations in double precision."""
-
 import dataclasses
 import os
 import pathlib
@@ -60,7 +58,7 @@ class Traces(unittest.TestCase):
             return context.readback()
 
     def check_path(self, trace, scene, camera, branches):
-        """Checks places of vertices, throughputs with uniform directions, and the radiance."""
+        """Checks positions of vertices, throughputs of uniform directions, and the radiance."""
         light, last = np.zeros(3), {0: (np.array(camera.position), None, None, None)}
         for vertex in trace.vertices:
             distance, normal, material = surface_of(vertex.position, scene)
@@ -113,7 +111,7 @@ class Traces(unittest.TestCase):
                 across, down = message_of(trace, camera, SETTINGS)["vertices"][0]["place"]
                 self.assertEqual((int(across * 48), int(down * 32)), (x, y))
                 if camera.vertical_fov:
-                    rounding = 2**-22 * np.linalg.norm(camera.position)  # of the distance to the first surface in view
+                    rounding = 2**-22 * np.linalg.norm(camera.position)  # relative to the first surface's distance
                     self.assertLess(surface_of(first.position, scene)[0], NEAR + rounding)
 
     def test_lines_end_before_the_camera_s_plane(self):
@@ -179,7 +177,7 @@ def pcg(word):
 
 
 def course_numbers(pixel, sample, seed, count):
-    """Numbers of shaders/coursework/start.comp."""
+    """Returns the numbers that shaders/coursework/start.comp draws."""
     of_sample = pcg((sample + pcg((pixel + pcg(seed)) % 2**32)) % 2**32)
     return [(pcg((dimension + of_sample) % 2**32) >> 8) / 2**24 for dimension in range(1, count + 1)]
 

@@ -1,5 +1,3 @@
-"""mypy --strict must accept the package and its example."""
-
 import os
 import pathlib
 import subprocess

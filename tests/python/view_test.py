@@ -125,7 +125,7 @@ class Views(unittest.TestCase):
         for name in ("view.js", "view.css", "codemirror.js"):
             self.assertEqual(self.request(good + name)[0], 200)
         port = self.host.partition(":")[2]
-        for host in (f"localhost:{port}", "127.0.0.1:9", "localhost", "[::1]:80"):  # The end of a tunnel has another port.
+        for host in (f"localhost:{port}", "127.0.0.1:9", "localhost", "[::1]:80"):  # A tunnel's end has another port.
             self.assertEqual(self.request(good, Host=host)[0], 200, host)
             self.assertEqual(self.request(good, Host=host, Origin=f"http://{host}")[0], 200, host)
         for host in ("example.org", f"127.0.0.1.example.org:{port}", f"example.org:{port}", "", "127.0.0.1:1:2", "127.0.0.2"):
@@ -235,7 +235,7 @@ class Views(unittest.TestCase):
             self.assertNotEqual(pixel["radiance"], image.radiance[5, 7].tolist())
 
     def assert_shows(self, page, layer, values, image):
-        """Numbers from 0 to 1 become 0 to 255; halves may be rounded either way."""
+        """Numbers from 0 to 1 become 0 to 255. Halves may be rounded up or down."""
         self.assertTrue((page.pixels[:, :, 3] == 255).all())
         shown = page.pixels[:, :, :3]
         if layer == "mean":

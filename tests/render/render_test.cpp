@@ -73,8 +73,8 @@ struct Agreement {
     double largest_t;
 };
 
-// Student's t for each block. The reference's total noise is known. Its distribution over blocks is assumed to be that
-// measured in the batches.
+// Computes Student's t for each block. The reference's total noise is known. It is distributed over blocks like the
+// batches' noise.
 Agreement agreement(const std::vector<Image> &batches, const Image &reference, double reference_rmse) {
     const double reference_share = reference_rmse * reference_rmse / noise_of_mean(batches);
     constexpr uint32_t blocks = (width / block_size) * (height / block_size);
@@ -86,7 +86,7 @@ Agreement agreement(const std::vector<Image> &batches, const Image &reference, d
             values[b] = block_mean(batches[b], block);
         const auto [mean, variance] = statistics::moments(values);
         const double expected = block_mean(reference, block);
-        if (variance == 0.0) { // Only emission is visible, and it is exact. Float32 sums in the reference are not.
+        if (variance == 0.0) { // Only emission is visible. It is exact, unlike the reference's sums.
             EXPECT_NEAR(mean, expected, 1e-5 * expected) << "block " << block;
             continue;
         }
@@ -100,9 +100,9 @@ Agreement agreement(const std::vector<Image> &batches, const Image &reference, d
     return result;
 }
 
-// For k = 15 degrees of freedom, t^2 has the mean k / (k - 2) = 1.154 and the deviation 1.84. The deviation of the mean
-// over 512 blocks is 0.081. The tolerance 0.5 allows for sums that are not quite normal, and still detects a bias of
-// one standard error in each block.
+// For k = 15 degrees of freedom, t^2 has the mean k / (k - 2) = 1.154 and the standard deviation 1.84. The mean over
+// 512 blocks has the standard deviation 0.081. The tolerance 0.5 allows for sums that are not quite normal, and still
+// detects a bias of one standard error in each block.
 constexpr double expected_mean_square_t = 15.0 / 13.0;
 constexpr double mean_square_t_bound = expected_mean_square_t + 0.5;
 // For 15 degrees of freedom, P(|t| > 8.5) is 4e-7. Over 512 blocks this is 2e-4.

@@ -1,4 +1,3 @@
-// Stated errors of pictures against their errors by references.
 #include "lib/film/sample_set.h"
 #include "tests/render/reference_image.h"
 #include "tests/support/context_calls.h"
@@ -37,9 +36,9 @@ struct Judgement {
     bool accepts(double ratio) const { return ratio >= low && ratio <= high; }
 };
 
-// shaders/README.md, section 11, has the calibration. A few hundred of the brightest random samples have the largest
-// weights, so both errors scatter. For sequences, stated errors are up to sqrt(3) too large (error_estimate.cpp), and
-// their denominators add more.
+// shaders/README.md, section 11, has the calibration. With random samples, the brightest few hundred have the largest
+// weights, so stated and true errors scatter. For sequences, stated errors are up to sqrt(3) too large
+// (error_estimate.cpp). Their denominators make them even larger.
 constexpr Judgement of_random{0.9, 1.2};
 constexpr Judgement of_sequence{0.8, 2.0};
 
@@ -76,8 +75,9 @@ protected:
     }
 };
 
-// Lamps are found by chance. Errors of bright pixels relative to their own means would make the stated error less than
-// half of the true one. Relative to the surroundings, the stated error is up to 1.73 times the true one here.
+// Lamps are found by chance. If errors of bright pixels were relative to their own means, the stated error would be
+// less than half of the true one. They are relative to the surroundings, which makes the stated error up to 1.73 times
+// the true one.
 constexpr Judgement of_rare{0.9, 2.0};
 
 constexpr CalibrationCase calibration_cases[] = {
@@ -107,7 +107,7 @@ TEST_F(StatedError, IsThatByTheReference) {
             const pt_error_estimate stated = error();
             const double ratio = stated.relative_rmse / relative_rmse(image(), reference);
             EXPECT_TRUE(each.judgement.accepts(ratio)) << stats().sample_count << " samples: " << ratio;
-            // The 95% bounds miss one of twenty true errors.
+            // One of twenty true errors lies outside the 95% bounds.
             EXPECT_GE(stated.relative_rmse_high, 0.9 * stated.relative_rmse / ratio);
             if (each.estimator == PT_ESTIMATOR_BEST) {
                 EXPECT_LE(stated.relative_rmse_low, 1.1 * stated.relative_rmse / ratio);
@@ -118,7 +118,7 @@ TEST_F(StatedError, IsThatByTheReference) {
     }
 }
 
-// 64 samples hit a lamp of 1/70 pixel about once, and often twice. If these pixels counted as rare samples, the stated
+// 64 samples hit a lamp of 1/70 pixel about once, and often twice. If these hits counted as rare samples, the stated
 // error would be ten times too large.
 TEST_F(StatedError, OfLampsBelowAPixelIsThatByManySamples) {
     constexpr uint32_t width = 64;
@@ -165,8 +165,8 @@ struct RangesCase {
     Judgement judgement;
 };
 
-// The older part of a range may be small: in [1000, 1500) it has the 24 samples below 1024. Over six seeds the largest
-// ratio is 3.05.
+// The older part of a range may be small: in [1000, 1500) it has the 24 samples below 1024. The largest ratio of six
+// seeds is 3.05.
 constexpr Judgement of_late_range{0.8, 3.2};
 
 TEST_F(StatedError, OfRangesIsThatByTheReference) {

@@ -123,7 +123,6 @@ TEST(SceneFileCalls, HaveDefaults) {
     EXPECT_EQ(film.gamma, 0.0);
 }
 
-// The next field keeps its bytes.
 TEST(SceneFileCalls, WriteNoMoreThanStructSize) {
     const File file = opened(room);
     pt_render render{};
@@ -209,7 +208,7 @@ TEST(SceneFileCalls, FindTheSourceOfARule) {
     EXPECT_EQ(nowhere.line, 0U);
 }
 
-// Fields of no scene of this file: libpt does not name them, but callers may.
+// Callers may pass rules about fields that this file does not have.
 TEST(SceneFileCalls, TakeAnyRule) {
     const File file = opened(room);
     for (const char *subject : {"sphere_arrays", "materials", "spheres", "planes", "", "nothing"}) {

@@ -1,6 +1,6 @@
 // Changes the scene of one context many times and measures memory: pt_soak [scenes] (default 1000). Leak checks miss
-// memory that is freed with the context. After a quarter of the scenes, the heap may grow by less than 32 bytes per
-// scene, the smallest block of malloc, plus four pages for the driver's threads. If it grows more, the exit code is 1.
+// memory that is freed with the context. The exit code is 1 if the heap grows too much after a quarter of the scenes.
+// It may grow by less than malloc's smallest block of 32 bytes per scene, plus four pages for the driver's threads.
 #include "tests/support/image_target.h"
 #include "tests/support/scene_of.h"
 

@@ -39,7 +39,8 @@ inline double student_bound(double false_alarm, std::size_t batch_count) {
     return std::sqrt(degrees * std::expm1(z * z / degrees));
 }
 
-// The deviation in standard errors. The relative rounding error of 1e-6 allows for some dozen roundings by 2^-24.
+// Returns the deviation in standard errors. The relative rounding error of 1e-6 allows for some dozen roundings by
+// 2^-24.
 inline double deviation(const Estimate &estimate, double expected) {
     const double rounding = 1e-6 * std::abs(expected);
     return (estimate.mean - expected) / std::hypot(estimate.standard_error, rounding);
@@ -52,7 +53,7 @@ protected:
         ASSERT_EQ(pt_set_camera(context(), &camera), PT_OK) << pt_last_error(context());
     }
 
-    // Plain Halton ignores seeds, so its batches are successive samples. Their errors partly cancel, so the standard
+    // Plain Halton ignores seeds, so its batches are successive samples. Their errors partly cancel, and the standard
     // error is an upper bound.
     Batches render_batches(pt_render render, uint32_t batch_count, uint32_t samples) {
         Batches batches;

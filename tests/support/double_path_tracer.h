@@ -132,7 +132,8 @@ private:
         return vector(sphere.center) + time * vector(sphere.motion);
     }
 
-    // Returns 1 - cos(half angle), or 0 inside the lamp, where it is not sampled.
+    // Returns 1 - cos(half angle) of the sphere's cone. Inside the lamp the value is 0, because the lamp is not
+    // sampled.
     double cap(const pt_sphere &sphere, const glm::dvec3 &from, double time) const {
         const glm::dvec3 to = center_at(sphere, time) - from;
         const double squared_sine = sphere.radius * sphere.radius / glm::dot(to, to);
@@ -227,7 +228,7 @@ private:
         return opacity.data == nullptr || share() < *at<float>(opacity, row);
     }
 
-    // A ray enters the side or a ball at the smallest distance, and leaves at the largest.
+    // A ray enters at the smallest distance of the side and both balls, and leaves at the largest.
     static void meet_capsule(Hit &nearest, const glm::dvec3 &origin, const glm::dvec3 &direction,
                              const pt_sphere_array &array, std::uint32_t row) {
         const double *const a = at<double>(array.center, row);

@@ -31,13 +31,13 @@ struct Ray {
     Real time;
     Vector start;
     Vector origin{0.0L}; // relative to the camera
-    Vector spread{0.0L}; // sizes of the summed terms
+    Vector spread{0.0L}; // sizes of the terms that are summed
 };
 
 struct Meeting {
     Real distance = nowhere;
     Real tolerance = 0.0L;
-    bool is_uncertain = false; // almost touching, so undecided
+    bool is_uncertain = false; // undecided, because the ray almost touches
     Vector normal{0.0L};       // faces the camera
     Real normal_tolerance = 0.0L;
     std::uint32_t object = PT_NO_OBJECT;
@@ -90,7 +90,7 @@ inline Meeting meet_sphere(const pt_sphere &sphere, const Vector &camera, const 
     meeting.tolerance = is_flat ? way * rounding * (8.0L + 16.0L / (cosine * cosine))
                                 : rounding * (16.0L * reach + (16.0L * reach + 4.0L * r) / cosine) + astray / cosine;
     meeting.normal = height > 0.0L ? outward : -outward;
-    // The error of the point divided by r, plus eight roundings.
+    // The error of the point, divided by r, and eight roundings.
     meeting.normal_tolerance = (meeting.tolerance + 16.0L * rounding * across) / r + 8.0L * rounding;
     return meeting;
 }
@@ -151,7 +151,7 @@ struct View {
     }
 };
 
-// Follows the library's own rule. Lamps are spheres, unless the radius exceeds 65536 times the height of the center.
+// Follows the library's own rule. A lamp is a sphere, unless its radius exceeds 65536 times the height of its center.
 inline bool is_held_as_plane(const pt_sphere &sphere, const pt_material &material, const View &view) {
     const auto vector = [](const double(&v)[3]) { return glm::dvec3(v[0], v[1], v[2]); };
     pt::Camera start{};

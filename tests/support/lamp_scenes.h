@@ -66,7 +66,7 @@ inline pt::Scene nested(std::uint32_t count) {
     return scene;
 }
 
-// All other lamps have 10^-8 of its power.
+// All other lamps have 10^-8 of the strong lamp's power.
 inline pt::Scene with_a_strong_one(std::uint32_t count) {
     pt::Scene scene = in_a_box(count, 1);
     scene.materials[count / 3].emission = glm::vec3(1e9F);

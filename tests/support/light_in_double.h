@@ -20,8 +20,8 @@ inline constexpr glm::uvec2 picture(24, 16);
 inline constexpr glm::uvec2 block(8, 8);
 inline constexpr std::uint32_t image_count = 12;
 inline constexpr std::uint32_t samples_of_image = 32;
-// The limit of deviations, in standard errors from 12 images. In one of 330 runs, one of 72 blocks exceeds the limit.
-// Seeds are fixed.
+// The limit of deviations, in standard errors from 12 images. One of 72 blocks exceeds it in one of 330 runs, but seeds
+// are fixed.
 inline constexpr double most_errors = 6.5;
 
 struct Given {

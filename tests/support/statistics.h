@@ -9,7 +9,7 @@
 
 namespace statistics {
 
-// z with P(N(0, 1) > z) = probability, by bisection.
+// Returns z with P(N(0, 1) > z) = probability, by bisection.
 inline double normal_quantile(double probability) {
     double low = 0.0;
     double high = 40.0;
@@ -20,8 +20,8 @@ inline double normal_quantile(double probability) {
     return low;
 }
 
-// A deviate with a nearly standard normal distribution: the cube root of chi^2 / k is nearly normal with mean 1 - 2 /
-// (9 k) and variance 2 / (9 k) (Wilson and Hilferty 1931). Expected counts must be at least 10.
+// Returns a nearly standard normal deviate: the cube root of chi^2 / k is nearly normal with mean 1 - 2 / (9 k) and
+// variance 2 / (9 k) (Wilson and Hilferty 1931). Expected counts must be at least 10.
 inline double chi_square_deviate(std::span<const double> observed, std::span<const double> expected) {
     double chi_square = 0.0;
     for (std::size_t i = 0; i < observed.size(); ++i) {

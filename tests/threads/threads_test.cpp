@@ -34,7 +34,6 @@ struct Progress {
     }
 };
 
-// With short submissions.
 pt_context *ready_context(uint64_t seed) {
     pt_create_info create{};
     create.struct_size = sizeof create;
@@ -86,7 +85,7 @@ TEST(ThreadsTest, AnotherThreadStopsACall) {
     EXPECT_EQ(result, PT_CANCELLED);
 }
 
-// The thread cancels polls and waiting calls. It may also be too early or too late.
+// The thread cancels polls and waiting calls. A cancellation may also come too early or too late.
 TEST(ThreadsTest, AnyThreadCancels) {
     pt_context *const context = ready_context(0);
     ASSERT_NE(context, nullptr);
@@ -117,7 +116,7 @@ TEST(ThreadsTest, AnyThreadCancels) {
     pt_destroy(context);
 }
 
-// Two threads break the contract. The second call is refused, so there is no race.
+// Two threads break the contract. The second call must be refused without a race.
 TEST(ThreadsTest, ASecondThreadIsRefused) {
     pt_context *const context = ready_context(0);
     ASSERT_NE(context, nullptr);

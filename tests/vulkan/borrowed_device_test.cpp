@@ -167,7 +167,7 @@ TEST_F(BorrowedDeviceTest, ADeviceThatHangsKeepsWhatItsWorkUses) {
         EXPECT_EQ(loss.code(), PT_ERROR_DEVICE_LOST);
         EXPECT_TRUE(device.hangs());
     }
-    gate.reset(); // ends the work, as no hung device would
+    gate.reset(); // ends the work, unlike a hung device
     for (const std::string &line : messages_.take())
         ADD_FAILURE() << "destroyed too early: " << line;
     caller_.reset();

@@ -1,4 +1,4 @@
-// A program's own Vulkan, with the validation layer. context_fixture.h describes the environment variables.
+// A program's own Vulkan, with the validation layer.
 #pragma once
 
 #include "lib/vulkan/device_choice.h"

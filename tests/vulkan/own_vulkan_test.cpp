@@ -165,7 +165,7 @@ TEST_F(OwnVulkanTest, TheQueueIsFreeWhileTheContextCallsBack) {
     EXPECT_EQ(observer.mutex.locks, observer.mutex.unlocks);
 }
 
-// pt_prepare submits an empty dispatch, because some drivers compile kernels only then.
+// pt_prepare submits an empty dispatch, because some drivers compile kernels only at the first dispatch.
 TEST_F(OwnVulkanTest, PreparingIsOneSubmission) {
     QueueMutex mutex;
     pt_vulkan vulkan = caller().handles();

@@ -64,10 +64,10 @@ TEST_F(VulkanTest, ADeviceThatDoesNotEndASubmissionIsLostForGood) {
         EXPECT_EQ(error.code(), PT_ERROR_DEVICE_LOST);
         EXPECT_STREQ(error.what(), loss.what());
     }
-    gate.open(); // ends the work, as no hung device would
+    gate.open(); // ends the work, unlike a hung device
 }
 
-// After more rounds than the budget, a driver may end loops without an error.
+// After too many rounds, a driver may end loops without an error.
 TEST_F(VulkanTest, KernelsRunAllLoopTripsOfTheBudget) {
     constexpr std::uint64_t enough = 1U << 20;
     const auto steps = static_cast<std::uint32_t>(std::min(device().limits().loop_trip_budget, enough));
