@@ -16,7 +16,7 @@ using namespace analytic;
 
 constexpr std::uint32_t batch_count = 16;
 
-// Returns a power of two, for which Sobol points are best.
+// Returns a power of two, because Sobol points are most even at such counts.
 std::uint32_t samples_for(const Crop &crop, const cli::SceneFile &scene) {
     const double paths = (1U << 21) / samples_for_one();
     const double surfaces = static_cast<double>(scene.spheres.size() + scene.planes.size());

@@ -1,4 +1,4 @@
-"""Tests the benchmark's arithmetic, scenes and references, and runs it. PT_LIBRARY names the library."""
+"""PT_LIBRARY names the library."""
 
 import contextlib
 import io

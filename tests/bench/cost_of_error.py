@@ -2,7 +2,7 @@ import math
 
 
 def cost_of_error(points, error):
-    """Returns the cost of this error, and whether it was measured and not extrapolated. `points` maps sample counts to
+    """Returns the cost of this error, and whether the error lies in the measured range. `points` maps sample counts to
     (cost, error). Interpolates in logarithms, and extrapolates with the slope -1."""
     line = [(math.log(cost), math.log(value)) for cost, value in (points[spp] for spp in sorted(points))]
     wanted = math.log(error)

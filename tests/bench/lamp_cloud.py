@@ -4,13 +4,13 @@ import random
 SEED = 5
 LOW, HIGH = (-8, 0.8, -16), (8, 6, -2)
 BRIGHTNESSES = 41
-POWER = 60  # emission of a lamp of radius 0.3 with the light of the whole cloud
+POWER = 60  # emission of one lamp of radius 0.3 with the light of the whole cloud
 MATT, DARK = {"diffuse": [0.7, 0.6, 0.5]}, {"diffuse": [0.4, 0.5, 0.6]}
 
 
 class LampCloud:
-    """Has the columns of SphereCloud. The total surface does not depend on the count. Without `shining` only the first
-    lamp emits, so the same rays are traced without a choice among lamps."""
+    """Has the columns of SphereCloud. The total surface of the lamps does not depend on the count. Without `shining`
+    only the first lamp emits, so the same rays are traced without a choice among lamps."""
 
     def __init__(self, count, shining=True):
         rng = random.Random(SEED)

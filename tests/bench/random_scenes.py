@@ -1,4 +1,4 @@
-"""Makes random scenes of 25 kinds, for measurements on scenes that nobody chose.
+"""Makes random scenes of 25 kinds.
 
     python3 tests/bench/random_scenes.py FOLDER [--first-seed N]   # writes a hundred scene files
 

@@ -4,8 +4,8 @@
         [--pairs N] [--random SEED] [--changes | --samples]
 
 Without --changes and --samples it tests N pairs of images of equal light for each scene and kind of pair. The images
-have different seeds, and may have different methods and numbers of samples. The scenes are the benchmark's and those of
-calibration_scenes.py, or with --random the hundred of random_scenes.py.
+have different seeds, and may have different methods and numbers of samples. The scenes are in bench_scenes.py and
+calibration_scenes.py, or with --random in random_scenes.py.
 --changes counts the scenes that show a change of their brightest lamp, a material, a tile or a density in a kernel.
 --samples doubles the samples of two images until they show a change of a given size.
 
@@ -86,7 +86,6 @@ def false_alarms(scenes, pairs):
 
 
 def darker(scene, key, share):
-    """Returns the scene with `key` of the strongest material multiplied by 1 - `share`."""
     changed = copy.deepcopy(scene)
     strongest = max(changed["materials"].values(), key=lambda each: np.sum(each.get(key, 0)))
     strongest[key] = (np.array(strongest[key]) * (1 - share)).tolist()

@@ -1,5 +1,3 @@
-"""Counts how often pt.compare calls equal light different."""
-
 import unittest
 
 from same_light import KINDS, Images, pt, scenes_of

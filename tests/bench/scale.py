@@ -168,7 +168,6 @@ def choose_samples(program, length, options):
 
 
 def measure_rates(programs, options):
-    """Maps (program, path length) to samples per wall second and per CPU second."""
     rates, samples_of_picture = {}, options.width * options.height
     for length in options.lengths:
         samples = [choose_samples(program, length, options) for program in programs]

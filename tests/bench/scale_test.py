@@ -1,5 +1,4 @@
-"""Tests arithmetic and clouds of scale.py, and runs it with lists and trees of spheres and lamps. No times are
-judged. PT_LIBRARY names the library."""
+"""Tests scale.py without judging times. PT_LIBRARY names the library."""
 
 import json
 import math

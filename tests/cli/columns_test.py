@@ -99,7 +99,7 @@ class RealDevice(ColumnsTest):
             self.write("m.npy", npy(float_type, (3, 3), motion * 3, version))
             for moved in "m.npy", motion:
                 self.scene({"center": "c.npy", "radius": "r.npy", "material": "a", "motion": moved, "color": "k.npy"})
-                # The library decodes sRGB to float32, so a color and its light may differ by one ulp.
+                # The library decodes sRGB to float32, which may change the light by one ulp.
                 for line, other in zip(expected, self.picture()):
                     self.assertLessEqual(max(abs(a - b) for a, b in zip(line, other)), 1)
 

@@ -79,7 +79,6 @@ class CommandLineTest(unittest.TestCase):
         return process.returncode
 
     def expect(self, code, *arguments, error=None, **environment):
-        """Each line of stderr must begin with the program's name. One must contain `error`."""
         self.assertEqual(self.run_pt(*arguments, **environment), code, self.errors)
         if code != 0:
             self.assertNotEqual(self.errors, "")
@@ -89,7 +88,6 @@ class CommandLineTest(unittest.TestCase):
             self.assertIn(error, self.errors)
 
     def expect_refusals(self, command, rows):
-        """Rows have exit code, arguments, and a part of the error. No file may be written."""
         before = self.files()
         for code, arguments, error in rows:
             with self.subTest(arguments=arguments):

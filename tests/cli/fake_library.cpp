@@ -221,8 +221,7 @@ pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *info) {
     return PT_OK;
 }
 
-// Red increases from 0 to 1 to the right, and green downwards. Blue is 2, but with FAKE_PT_FAIL=split:1 the number of
-// calls changes blue. In other quantities, a pixel's value is its position. Objects are numbered row by row.
+// With FAKE_PT_FAIL=split:1 the number of calls changes blue.
 pt_result pt_readback(pt_context *context, const pt_image *image) {
     const pt_render &render = context->render;
     auto *object = static_cast<std::uint32_t *>(image->data);

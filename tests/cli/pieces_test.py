@@ -26,7 +26,7 @@ class Pieces(CommandLineTest):
     def test_a_device_that_is_too_small_gets_pieces(self):
         whole = self.pixels()
         self.assertEqual(self.pixels(FAKE_PT_MAX_ROWS=9), whole)
-        self.assertIn("4 pieces of up to 9 rows: ", self.errors)  # 33 rows, then 17, then 9
+        self.assertIn("4 pieces of up to 9 rows: ", self.errors)  # halved from 33 rows to 17 and 9
         self.expect(2, "render", COURSEWORK, *SIZE, "-o", "a.png", error="more than the device has", FAKE_PT_MAX_ROWS=0)
 
     def test_statistics_are_those_of_all_pieces(self):

@@ -1,4 +1,4 @@
-"""The schema and the program must accept the same scenes. Scenes are changed at every place."""
+"""The schema and the program must accept the same scenes."""
 
 import copy
 import json

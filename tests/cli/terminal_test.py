@@ -15,7 +15,6 @@ RENDER = ["render", COURSEWORK, "-o", "a.png", "--size", "2x2", "--spp"]
 
 class Terminal(CommandLineTest):
     def on_terminal(self, *more, size=None, before=default_signals, **environment):
-        """Returns the process, and the other end of its terminal."""
         try:
             ours, theirs = pty.openpty()
         except OSError as error:  # a chroot without /dev/pts

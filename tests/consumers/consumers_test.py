@@ -191,7 +191,7 @@ class Steps:
         return fast, slow
 
     def subproject(self):
-        """Tests add_subdirectory(). Objects come from the library's own build (reuse.py)."""
+        """Objects come from the library's own build (reuse.py)."""
         folder = self.folder("subproject")
         # The library sets optimization only for itself, and only if the outer project has no build type.
         for number, (settings, expected) in enumerate((

@@ -346,8 +346,8 @@ TEST(Denoise, DoesNotSpreadALamp) {
 }
 
 // The image is a checkerboard of mean 1. In one pixel of each tile the halves differ, always by the same amount. The
-// filter blurs the checkerboard, so little of it is used. If one half of such a pixel is dark, a bright neighbor may
-// extend into the pixel, so the square counts ln(1 / 0.1) times.
+// filter blurs the checkerboard, so little of the filtered image is used. If one half of such a pixel is dark, a bright
+// neighbor may extend into the pixel, so the square counts ln(1 / 0.1) times.
 TEST(Denoise, KnowsLittleOfEdgesThatOneHalfDidNotMeet) {
     const auto relative_square = [](float lesser) {
         Pixels halves[2] = {Pixels(value_count), Pixels(value_count)};

@@ -1,4 +1,4 @@
-"""Tests pt-farm. Argument: the program pt, whose pictures must be equal."""
+"""Argument: the program pt."""
 
 import contextlib
 import io

@@ -265,8 +265,8 @@ class Looks(unittest.TestCase):
         self.assertEqual(prepare(named, Options(opacity="0.5", where="share > 0.5")).opacities.tolist(), [0.5])
 
     def test_shares_of_hits(self):
-        """Rays are spread evenly, so the variance of the fractions is less than a tenth of p (1 - p) / 400, which
-        random rays would give."""
+        """Rays are spread evenly. The variance of the fractions is less than a tenth of p (1 - p) / 400, the variance
+        with random rays."""
         image = pt.figure(np.zeros((1, 3)), radius=1.0, opacity=0.75, samples=400, size=(32, 32), view="front")
         share = image._shares.shapes[8:24, 8:24]
         self.assertAlmostEqual(share.mean(), 0.75, delta=5 * np.sqrt(0.25 * 0.75 / (400 * 256)))

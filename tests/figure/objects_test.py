@@ -1,4 +1,4 @@
-"""Tests objects and files of other packages. Packages that are not installed are replaced by objects with the attributes that pt reads."""
+"""Packages that are not installed are replaced by objects with the attributes that pt reads."""
 
 import io
 import pathlib

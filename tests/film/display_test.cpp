@@ -344,7 +344,7 @@ TEST(Exposure, TheAverageOfLogarithmsBecomesMiddleGrey) {
     EXPECT_EQ(automatic_exposure(grey({0x1p-20F * 0.09F, 0x1p-20F * 0.36F})), 20.0) << "moves with the picture";
 }
 
-// A hundredth of the pixels are 2^20 times as bright. Their part of the level is 2^20 / 100^4.
+// A hundredth of the pixels are 2^20 times as bright. These pixels alone would give the level 2^20 / 100^4.
 TEST(Exposure, HardlyDependsOnLamps) {
     std::vector<float> radiance = grey({0x1p20F * 0.18F});
     radiance.resize(3 * 100, 0.18F);

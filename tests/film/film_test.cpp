@@ -24,7 +24,6 @@ Bytes bytes_of(const pt::Film &film) {
     return bytes;
 }
 
-// The tiles have 8x8 pixels, as in adaptive sampling, or are the whole image.
 std::vector<pt::Rectangle> grid(std::uint32_t width, std::uint32_t height) {
     std::vector<pt::Rectangle> tiles;
     for (std::uint32_t y = 0; y < image_height; y += height)

@@ -1,5 +1,4 @@
-// Checks each input. examine_numbers.cpp does so on the host, and examine_image.cpp renders images. A failed check ends
-// the process.
+// A failed check ends the process.
 #pragma once
 
 #include "tests/fuzz/input.h"

@@ -87,7 +87,7 @@ void examine_one(const Input &input) {
             "the bits do not depend on how samples are split over calls");
 }
 
-// Returns no value if the input is refused. Repeated surfaces merge, so a changed input may need another kernel.
+// Repeated surfaces merge, so a changed input may need another kernel.
 std::optional<pt::Features> features(const Input &input) {
     try {
         return pt::gpu_scene(pt::PreparedScene(pt::owned_scene(checked_scene_of(input.scene()))),

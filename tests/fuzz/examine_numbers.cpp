@@ -34,7 +34,6 @@ void require_refusal(const pt::Error &error) {
             "the message of what is refused names a field, its value and a rule");
 }
 
-// Returns no value if the input is refused.
 template <typename Validate>
 auto accepted(Validate validate) -> std::optional<decltype(validate())> {
     try {

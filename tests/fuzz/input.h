@@ -1,4 +1,3 @@
-// The input of one run. Bytes or a scene file provide it.
 #pragma once
 
 #include "tests/fuzz/byte_reader.h"
@@ -30,7 +29,7 @@ struct Input {
         std::uint32_t fewer_materials = 0;
     } claims;
 
-    // Columns may hold the last spheres. The pointers point into the structs.
+    // Columns may hold the last spheres. The columns' pointers point into the structs of these spheres.
     struct Columns {
         std::uint32_t count = 0;
         bool has_colors = false;

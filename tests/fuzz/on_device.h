@@ -1,4 +1,4 @@
-// One context for all inputs. tests/support/context_fixture.h describes the environment variables.
+// One context for all inputs.
 #pragma once
 
 #include "tests/fuzz/require.h"

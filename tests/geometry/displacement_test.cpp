@@ -110,7 +110,7 @@ TEST(Displacement, OfSpheresThatShareAGridWithAGround) {
     EXPECT_EQ(rule->component, 1);
 }
 
-// The capsule passes at a distance of 1, where a pixel's side is 1 / 512. This is 2^-21 of 2^12.
+// The capsule passes at a distance of 1, where a pixel's side is 1 / 512. This is 2^-21 of a length of 2^12.
 TEST(Displacement, OfLongCapsules) {
     const auto passing = [](double length) {
         return displaced_capsule({-0.5 * length, 0, -1.5}, {0.5 * length, 0, -1.5}, 0.5);

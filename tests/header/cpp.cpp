@@ -49,7 +49,6 @@ static_assert(PT_CURVE_NONE == 0 && PT_CURVE_REINHARD == 1 && PT_CURVE_ACES == 2
 static_assert(PT_CURVE_NEUTRAL == 4);
 static_assert(PT_LIGHT_EQUAL_BITS == 1 && PT_LIGHT_SAME == 2 && PT_LIGHT_DIFFERENT == 3 && PT_LIGHT_UNDECIDED == 4);
 
-// These are the types of the functions, which have C linkage.
 static_assert(std::is_same_v<decltype(&pt_version), uint32_t (*)()>);
 static_assert(std::is_same_v<decltype(&pt_result_name), const char *(*)(pt_result)>);
 static_assert(std::is_same_v<decltype(&pt_next_check), uint32_t (*)(uint32_t)>);

@@ -1,4 +1,3 @@
-// Runs the path-tracing kernel on a small film.
 #pragma once
 
 #include "lib/code/shader_source.h"

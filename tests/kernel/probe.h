@@ -1,4 +1,3 @@
-// Runs small kernels that call shader functions.
 #pragma once
 
 #include "lib/points/point_sequence.h"

@@ -91,7 +91,7 @@ class Films(unittest.TestCase):
             self.assertEqual([found.name for found in pathlib.Path(folder).iterdir()], ["kept.ptfilm"])
 
     def test_packed_files(self):
-        """The program writes packed files. The module that unpacks these may be missing."""
+        """The module that unpacks the program's films may be missing."""
         packed = _zstd.MAGIC + b"frame"
         module = mock.Mock(decompress=lambda data: self.whole.to_bytes() if data == packed else b"")
         with mock.patch.dict(sys.modules, {"compression.zstd": None, "zstandard": module}):

@@ -24,7 +24,6 @@ PIXELS = ((5, 7, 0), (24, 16, 3), (40, 25, 1), (30, 9, 70))
 
 
 def surface_of(position, scene):
-    """Returns distance, normal and material of the nearest surface."""
     found = [(abs(np.linalg.norm(position - ball.center) - ball.radius), (position - ball.center) / ball.radius, ball.material)
              for ball in scene.spheres]
     found += [(abs(np.dot(plane.normal, position) + plane.offset), np.array(plane.normal, float), plane.material)
@@ -58,7 +57,6 @@ class Traces(unittest.TestCase):
             return context.readback()
 
     def check_path(self, trace, scene, camera, branches):
-        """Checks positions of vertices, throughputs of uniform directions, and the radiance."""
         light, last = np.zeros(3), {0: (np.array(camera.position), None, None, None)}
         for vertex in trace.vertices:
             distance, normal, material = surface_of(vertex.position, scene)

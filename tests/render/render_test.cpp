@@ -73,8 +73,8 @@ struct Agreement {
     double largest_t;
 };
 
-// Computes Student's t for each block. The reference's total noise is known. It is distributed over blocks like the
-// batches' noise.
+// Computes Student's t for each block. The reference's total noise is known. The test assumes that this noise is
+// distributed over blocks like the batches' noise.
 Agreement agreement(const std::vector<Image> &batches, const Image &reference, double reference_rmse) {
     const double reference_share = reference_rmse * reference_rmse / noise_of_mean(batches);
     constexpr uint32_t blocks = (width / block_size) * (height / block_size);

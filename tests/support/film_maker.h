@@ -1,4 +1,3 @@
-// Films of invented samples that are added one by one.
 #pragma once
 
 #include "lib/base/digest.h"

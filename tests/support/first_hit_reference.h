@@ -46,10 +46,10 @@ struct Meeting {
 // All errors are in terms of u, the unit roundoff of float32. A direction has an error of 4 u across (two products and
 // sums for each component), and as much in its length.
 //
-// Let a sphere have center c and radius r. The center has an error of u |c|, and its projection b on the ray one of 8 u
-// |c|. So has the ray's distance l from the center. The half chord h = sqrt(r^2 - l^2) has an error of (8 u |c| + 2 u
-// r) / cosine with cosine = h / r. The tolerance is twice this error. The difference l - r has an error of 8 u |c| + 2
-// u r. Within twice this error it is undecided whether the ray hits.
+// Let a sphere have center c and radius r. The center has an error of u |c|. Its projection b on the ray has an error
+// of 8 u |c|, and so does the ray's distance l from the center. The half chord h = sqrt(r^2 - l^2) has an error of (8 u
+// |c| + 2 u r) / cosine with cosine = h / r. The tolerance is twice this error. The difference l - r has an error of 8
+// u |c| + 2 u r. Within twice this error it is undecided whether the ray hits.
 //
 // A flat sphere of curvature k at height h is hit at 2 h / q with q = s + sqrt(s^2 - 2 k h) and slope s. The errors are
 // u for h, 4 u for s, and (4 u s + 4 u) / cosine for the root, and q >= cosine. The relative tolerance is 16 u /

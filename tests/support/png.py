@@ -1,4 +1,4 @@
-"""Reads the program's PNG files (ISO 15948) and checks their checksums."""
+"""PNG is ISO 15948."""
 
 import struct
 import zlib
