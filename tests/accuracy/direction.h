@@ -36,9 +36,9 @@ inline Real azimuth_bound(Real sine) {
 }
 
 // Bounds the error of rotate_to_axis. q <= sine has an error of 2 u and its quotient an error of 6 u, in total 8 u
-// sine. `along` <= sqrt(2) has an error of u. Both count in x and y, where the product adds sqrt(2) u and the sums add
-// 0.7 u. In z the product adds u, q adds 2 u sine, and the sum adds u / 2. If the axis's length deviates from 1 by l,
-// the tangents add 2.5 l (|v.x| + |v.y|) <= 2.5 l sqrt(2) sine.
+// sine. `along` <= sqrt(2) has an error of u. Both errors count in x and y, where the product adds sqrt(2) u and the
+// sums add 0.7 u. In z the product adds u, q adds 2 u sine, and the sum adds u / 2. If the axis's length deviates from
+// 1 by l, the tangents add 2.5 l (|v.x| + |v.y|) <= 2.5 l sqrt(2) sine.
 inline Real rotation_bound(const glm::vec3 &axis, Real sine) {
     const Real length = length_error(axis);
     return sine * (8.3L * half_ulp + 2.5L * std::sqrt(Real{2}) * length) + length + 3.5L * half_ulp;

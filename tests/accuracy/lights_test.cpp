@@ -104,7 +104,7 @@ Real direction_bound(const View &view, const glm::vec3 &axis, Real h) {
 }
 
 // d has an error of 7.5 u: 2.5 u for d^2, 4 u for inversesqrt and u for the product. r^2 - d^2 h (2 - h) has an error
-// of 3 u r^2. Its second term adds 18 u and the relative error of h.
+// of 3 u r^2. The second term adds 18 u and the relative error of h.
 Real distance_bound(const View &view, const Lamp &lamp, Real h) {
     const Real share = view.height_share + half_ulp;
     const Real squared_radius = Real{lamp.radius} * lamp.radius;

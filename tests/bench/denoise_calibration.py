@@ -38,9 +38,9 @@ class Case:
     count: int
     relative: float  # relative to the raw image's error
     absolute: float
-    gain: float  # mean square of the raw image's relative error / mean square of the denoised image's
+    gain: float  # mean square of the raw image's relative error, divided by the denoised image's
     light: float
-    brighter: int  # count of values above all values of both halves in the same 3x3 pixels
+    brighter: int  # number of values that exceed all values of both halves in the 3x3 pixels around
     stated: float  # stated error / true error
     holds: bool
     is_uncertain: bool

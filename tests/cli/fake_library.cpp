@@ -86,7 +86,7 @@ double fake_error(std::uint32_t sample_count) {
     return sample_count < 16 ? std::numeric_limits<double>::infinity() : 1.0 / sample_count;
 }
 
-// Counts allocations from main() on, which begins by setting a terminate handler.
+// Counts allocations from main() on. main() sets a terminate handler first.
 bool is_failing_allocation() {
     static const std::terminate_handler before_main = std::get_terminate();
     static const char *const wanted = std::getenv("FAKE_PT_ALLOCATION");

@@ -149,7 +149,7 @@ class Farm(unittest.TestCase):
             self.cluster.workers[name].process.pid
 
     def harm(self, workers, stopped=None, killed=None):
-        """Harms some workers while all wait with their parts. A stopped worker continues when other workers have its
+        """Stops or kills a worker while all workers have parts. A stopped worker continues when other workers have its
         parts."""
         go = os.path.join(self.enterContext(tempfile.TemporaryDirectory()), "go")
         calls, held = [], []

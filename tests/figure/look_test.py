@@ -184,8 +184,8 @@ class Radii(unittest.TestCase):
 
 class Background(unittest.TestCase):
     def test_light_before_a_background(self):
-        """The stage's radiance is 0.5. Of four pixels, one is half covered by a ball of 0.8, one is in shadow, one is
-        empty, and one is fully covered."""
+        """The stage's radiance is 0.5. Of four pixels, one is half covered by a ball of radiance 0.75, one is in
+        shadow, one is empty, and one is fully covered."""
         stage, particles = 0.5, np.array([[0.5, 0, 0, 1]])
         radiance = np.float32([[0.5 * 0.75 + 0.5 * 0.5, 0.25, 0.5, 0.75]])[:, :, None].repeat(3, axis=2)
         shares = Shares(particles, np.zeros((1, 4)))

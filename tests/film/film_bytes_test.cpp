@@ -17,7 +17,7 @@ namespace {
 
 using Bytes = std::vector<std::byte>;
 
-// A film that another program wrote by FORMAT.md. The first of its two tiles has samples in both parts.
+// Another program wrote this film by FORMAT.md. The first of its two tiles has samples in both parts.
 Bytes golden_film() {
     std::ifstream file(PT_TEST_DATA_DIR "/film/version-1.ptfilm", std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};

@@ -78,7 +78,7 @@ double lamp_of(double pixels) {
     return 10.0 * 2.0 * std::tan(0.5) / height * std::sqrt(pixels / 3.14159);
 }
 
-// A visible lamp that covers a 20th of a pixel expects .8 hits of 16 samples, and 13 of 256. Its light on other
+// A visible lamp that covers a 20th of a pixel gets .8 hits of 16 samples, and 13 hits of 256. Its light on other
 // surfaces is negligible.
 TEST_F(UnknownError, WhileSamplesHardlyMeetALampInView) {
     for (const bool in_view : {true, false}) {

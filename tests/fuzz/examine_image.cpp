@@ -1,4 +1,5 @@
-// Renders images on a device. The images must be finite, without rejected samples, and the same in any split.
+// Renders images on a device. The images must be finite, without rejected samples, and independent of the split over
+// calls.
 #include "tests/fuzz/examine.h"
 
 #include "lib/base/error.h"

@@ -68,8 +68,8 @@ std::optional<pt::BrokenRule> displaced_capsule(const glm::dvec3 &center, const 
 }
 
 TEST(Displacement, OfSpheresThatShareAGridWithADistantOne) {
-    // The grid reaches from -4 to -1e9 - 1. Its steps are 1, so centers move by up to half its diagonal. The near
-    // sphere's center becomes -4.5, and a pixel at -3.5 has the side 1 / 146.3.
+    // The grid reaches from -4 to -1e9 - 1. Its steps are 1, so centers move by up to half the diagonal of a unit cube.
+    // The near sphere's center becomes -4.5, and a pixel at -3.5 has the side 1 / 146.3.
     const auto rule = displaced({{{0, 0, -5}, 1, half}, {{0, 0, -1e9}, 1, half}});
     ASSERT_TRUE(rule);
     EXPECT_EQ(rule->subject, "sphere_arrays");

@@ -184,8 +184,8 @@ TEST_F(Opacity, OfOneSurfaceIsEvenlySpread) {
 // Returns the variance of the product of two decisions over lattices (i / N, r i / N) of N = 2^m points, with random
 // shifts and random odd r. A frequency that is 2^v times an odd number contributes only if the other frequency has the
 // same v, and then only in 2^(v + 1) of N lattices. For one decision, the frequencies that are multiples of 2^v have
-// the variance t (1 - t) / 4^v, where t is the fractional part of 2^v times the opacity. A single decision keeps only
-// its multiples of N.
+// the variance t (1 - t) / 4^v, where t is the fractional part of 2^v times the opacity. If only one decision varies,
+// only the multiples of N count.
 double variance_of_two(double opacity, std::uint32_t count) {
     const auto of_multiples = [&](double step) {
         const double fraction = step * opacity - std::floor(step * opacity);

@@ -18,7 +18,7 @@ BINARIES = {"lib/libpt.so.": "runtime", "bin/pt:": "program", "lib/pt/libpt-glsl
 
 
 def parts():
-    """Maps (component, header or library or file) to the part's name."""
+    """Maps (component, header or library or file) to the name of the part."""
     found = {}
     for line in (LICENSES / "parts.txt").read_text().splitlines():
         if not line.startswith("#"):
@@ -28,7 +28,7 @@ def parts():
 
 
 def foreign_headers(text):
-    """Returns the first folders, or the names, of headers of other projects."""
+    """Returns the first folder of each foreign header, or the header's name."""
     included = re.findall(r"^#include <([\w./-]+)\.h(?:pp)?>", text, re.MULTILINE)
     return {name.split("/")[0] if "/" in name else f"{name}.h" for name in included
             if name not in SYSTEM_HEADERS and not name.startswith("pt/")}

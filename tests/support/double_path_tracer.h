@@ -228,7 +228,7 @@ private:
         return opacity.data == nullptr || share() < *at<float>(opacity, row);
     }
 
-    // A ray enters at the smallest distance of the side and both balls, and leaves at the largest.
+    // A ray enters the capsule at the smallest distance to its side or balls, and leaves at the largest.
     static void meet_capsule(Hit &nearest, const glm::dvec3 &origin, const glm::dvec3 &direction,
                              const pt_sphere_array &array, std::uint32_t row) {
         const double *const a = at<double>(array.center, row);

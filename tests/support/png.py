@@ -1,4 +1,4 @@
-"""PNG is ISO 15948."""
+"""Reads PNG files (ISO 15948)."""
 
 import struct
 import zlib
