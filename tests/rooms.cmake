@@ -47,11 +47,21 @@ pt_add_tests(
   vulkan/device_choice_test.cpp
 )
 target_precompile_headers(pt_host_tests PRIVATE ${PROJECT_SOURCE_DIR}/lib/vulkan/api.h <gtest/gtest.h>)
-# Of a hundred thousand spheres and more, which take half a minute each with sanitizers; other tests build smaller trees.
+# Not with sanitizers: trees of a hundred thousand spheres, and statistics over thousands of films. Other tests run the same
+# code on less.
 if(PT_SANITIZE)
-  set_tests_properties(
-    host PROPERTIES ENVIRONMENT "GTEST_FILTER=-TreeCuts.OfMany*:SphereOrder.GivesEach*:SphereOrder.TellsHowFar*"
+  set(large
+      AdaptivePlan.CallsThatEndAnywhere*
+      Comparison.EqualLight*
+      Comparison.TheSmallestChange*
+      PixelSums.HaveTheValuesOfKernels
+      SphereOrder.GivesEach*
+      SphereOrder.ReadsTheBits*
+      SphereOrder.TellsHowFar*
+      TreeCuts.OfMany*
   )
+  list(JOIN large ":" large)
+  set_tests_properties(host PROPERTIES ENVIRONMENT "GTEST_FILTER=-${large}")
 endif()
 set_tests_properties(host PROPERTIES LABELS quick)
 
@@ -71,7 +81,6 @@ pt_add_tests(
   film/coverage_test.cpp
   film/estimate_on_device_test.cpp
   film/film_on_device_test.cpp
-  film/film_sum_test.cpp
   film/host_fold_test.cpp
   film/readback_test.cpp
   film/readback_to_buffer_test.cpp
@@ -79,7 +88,6 @@ pt_add_tests(
   film/saved_film_test.cpp
   film/split_into_calls_test.cpp
   film/split_over_devices_test.cpp
-  film/unknown_error_test.cpp
   geometry/first_hit_test.cpp
   kernel/probe.cpp
   kernel/render_device_test.cpp
@@ -106,6 +114,7 @@ if(NOT PT_SANITIZE)
             accuracy/sampling_test.cpp
             accuracy/vertex_test.cpp
             api/rounding_test.cpp
+            film/unknown_error_test.cpp
             geometry/capsule_test.cpp
             geometry/first_hit_random_test.cpp
             geometry/hidden_from_camera_test.cpp
@@ -114,7 +123,6 @@ if(NOT PT_SANITIZE)
             geometry/motion_test.cpp
             geometry/tree_path_test.cpp
             geometry/tree_test.cpp
-            kernel/kernel_test.cpp
             kernel/scene_source_test.cpp
             light/lamp_test.cpp
             light/lamp_tree_choice_test.cpp
@@ -156,15 +164,43 @@ if(TARGET pt-glsl)
 endif()
 # What is quick, and all else in two halves, which are among the first.
 set(quick "ApiTest.*:SplitIntoCalls.*:Film.*:Resolve.*")
-add_test(NAME device.quick COMMAND ${pt_leak_checked} $<TARGET_FILE:pt_device_tests> --gtest_filter=${quick})
-set_tests_properties(device.quick PROPERTIES LABELS quick)
-# With sanitizers without what takes a second or more in the kernel and the compiler of its driver, and reaches nothing of the
-# library that others do not.
+# Not with sanitizers: what takes a second or more, most of it in the kernel and in the compilers of drivers and of GLSL, and
+# reaches nothing of the library that others do not.
 if(PT_SANITIZE)
-  string(APPEND quick ":AdaptiveTest.EachTile*:EstimateTest.*ThatOfTheHost:FirstHit.Is*")
-  set(fewer ";PT_TEST_SPLITS=1")
+  set(slow
+      AdaptiveTest.EachTile*
+      AdaptiveTest.SplitsAndResumes*
+      EstimateTest.*ThatOfTheHost
+      FirstHit.Is*
+      PollingTest.AnyPattern*
+      PollingTest.ATarget*
+      ReadbackTest.MappedImagesHaveTheSame*
+      ReadbackTest.Rectangles*
+      ReloadTest.AContext*
+      ReloadTest.AFolder*
+      ReloadTest.AllDevices*
+      ReloadTest.OtherKernels*
+      ReloadTest.The*
+      Resolve.BitsAre*
+      Resolve.LostSamples*
+      SavedFilm.PartsAddUp*
+      ShaderSourceTest.CommentsDoNot*
+      ShaderSourceTest.EachKernel*
+      SplitIntoCalls.NoSampleIsLost*
+      SplitIntoCalls.StandardErrors*
+      SplitOverDevices.SeveralDevices*
+  )
+  list(JOIN slow ":" slow)
+  set(but "-${slow}")
+  set(rest "${quick}:${slow};PT_TEST_SPLITS=1")
+else()
+  set(rest "${quick}")
 endif()
-set(rest "GTEST_FILTER=-${quick};GTEST_TOTAL_SHARDS=2${fewer}")
+add_test(
+  NAME device.quick COMMAND ${pt_leak_checked} $<TARGET_FILE:pt_device_tests> "--gtest_filter=${quick}${but}"
+)
+set_tests_properties(device.quick PROPERTIES LABELS quick)
 add_test(NAME device.second_half COMMAND ${pt_leak_checked} $<TARGET_FILE:pt_device_tests>)
+set(rest "GTEST_FILTER=-${rest};GTEST_TOTAL_SHARDS=2")
 set_tests_properties(device PROPERTIES ENVIRONMENT "${rest};GTEST_SHARD_INDEX=0" COST 70)
 set_tests_properties(device.second_half PROPERTIES ENVIRONMENT "${rest};GTEST_SHARD_INDEX=1" COST 70)
