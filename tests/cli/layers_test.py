@@ -157,6 +157,24 @@ class RealDeviceLayers(LayersTest):
                 color = 255 if alpha > 0 else 0
                 self.assertEqual(row[4 * x:4 * x + 4], [color, color, color, math.floor(alpha * 255 + 0.5)])
 
+    def test_films_keep_alpha(self):
+        def take(*options):
+            self.expect(0, "render", COURSEWORK, "--size", "9x37", *options)
+
+        whole = ("--alpha", "--spp", "9")
+        rest = ("--spp", "6", "--first-sample", "3")
+        take("-o", "whole.exr", "--film", "whole.ptfilm", *whole)
+        take("--film", "0.ptfilm", "--alpha", "--spp", "3")
+        take("--film", "3.ptfilm", "--alpha", *rest)
+        take("--film", "bare.ptfilm", *rest)
+        self.expect(0, "merge", "3.ptfilm", "0.ptfilm", "-o", "sum.exr", "--film", "sum.ptfilm", "--alpha")
+        self.assertEqual(self.contents("whole.ptfilm"), self.contents("sum.ptfilm"))
+        take("-o", "resumed.exr", "--checkpoint", "0.ptfilm", "--resume", *whole)
+        for name in "sum.exr", "resumed.exr":
+            self.assertEqual(read_exr_channels(self.path("whole.exr")), read_exr_channels(self.path(name)))
+        self.expect(2, "merge", "whole.ptfilm", "bare.ptfilm", "-o", "c.exr", error="bare.ptfilm: coverage = nothing: must be 1")
+        self.expect(2, "merge", "bare.ptfilm", "-o", "c.exr", "--alpha", error="--alpha: the films have no alpha")
+
     def test_other_commands_read_the_mean(self):
         self.render("-o", "a.exr", "--layers", ALL)
         self.render("-o", "b.exr")

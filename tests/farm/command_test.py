@@ -109,7 +109,7 @@ class Command(unittest.TestCase):
         words = ["--size", "16x8", "--spp", "2"]
         with open("scene.json") as file:
             done = subprocess.run([sys.executable, "-m", "pt.farm._command", "render", "-", "-o", "a.exr", *words, "-q",
-                                   "--local-workers", "1"], stdin=file, stderr=subprocess.PIPE, text=True)
+                                   "--scheduler", self.cluster.scheduler_address], stdin=file, stderr=subprocess.PIPE, text=True)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.pt("render", "scene.json", "-o", "b.exr", *words)
         self.same("a.exr", "b.exr")

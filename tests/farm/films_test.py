@@ -229,7 +229,7 @@ class Farm(unittest.TestCase):
     def test_the_coordinator_is_killed(self):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "kept.ptfilm")
-            program = subprocess.Popen([sys.executable, __file__, "coordinator", path])
+            program = subprocess.Popen([sys.executable, __file__, "coordinator", self.shared.scheduler_address, path])
             while not os.path.exists(path):
                 self.assertIsNone(program.poll())
                 time.sleep(0.05)
@@ -330,16 +330,16 @@ class Farm(unittest.TestCase):
             self.farm(1, job=broken)
 
 
-def coordinator(path):
+def coordinator(address, path):
     _task.render_part = slow
-    with local_cluster(2) as cluster, Client(cluster) as client:
+    with Client(address) as client:
         farm.render(client, JOB, SAMPLES, options=farm.Options(part_seconds=0.1, checkpoint=path, checkpoint_every=0.0))
         time.sleep(600)
 
 
 if __name__ == "__main__":
     if sys.argv[1:2] == ["coordinator"]:
-        coordinator(sys.argv[2])
+        coordinator(*sys.argv[2:])
     elif sys.argv[1:2] == ["scheduler"]:
         with local_cluster(1) as local:
             print(local.scheduler_address, flush=True)

@@ -85,16 +85,22 @@ TEST_F(Coverage, IsThatOfTheSamplesThemselves) {
         double motion;
         std::uint32_t sampler;
         double aperture = 0.0;
+        double extent = 0.0; // of a parallel view
     };
-    for (const auto &[spheres, motion, sampler, aperture] :
+    for (const auto &[spheres, motion, sampler, aperture, extent] :
          {Case{5, 0.0, PT_SAMPLER_SOBOL}, Case{5, 1.5, PT_SAMPLER_HALTON_CP}, Case{5, 0.0, PT_SAMPLER_RANDOM, 1.0},
           Case{5, 1.5, PT_SAMPLER_HALTON, 1.0}, Case{90, 0.0, PT_SAMPLER_HALTON}, Case{90, 1.5, PT_SAMPLER_RANDOM},
-          Case{90, 1.5, PT_SAMPLER_SOBOL, 1.0}}) {
+          Case{90, 1.5, PT_SAMPLER_SOBOL, 1.0}, Case{90, 0.0, PT_SAMPLER_SOBOL, 0.0, 6.0}}) {
         SCOPED_TRACE(std::to_string(spheres) + " spheres, sampler " + std::to_string(sampler));
         pt_render render = picture(sampler);
         render.first_sample = 3;
         Shining shining = some(spheres, motion);
         shining.camera.aperture = aperture;
+        shining.camera.vertical_extent = extent;
+        if (extent > 0.0) {
+            shining.camera.projection = PT_PROJECTION_ORTHOGRAPHIC;
+            shining.camera.vertical_fov = 0.0;
+        }
         set(context(), shining, render);
         take(context(), 7);
         expect_that_of_radiance(context());

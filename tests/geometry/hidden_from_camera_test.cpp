@@ -1,3 +1,4 @@
+// Hidden lamps, walls and shells in random scenes are in tests/light/random_light_test.cpp.
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/support/image_target.h"
@@ -152,73 +153,8 @@ TEST_F(HiddenFromCamera, ClosedScenesNeitherLeakNorLoseLight) {
     }
 }
 
-constexpr std::uint32_t white = 0;
-constexpr std::uint32_t lamp = 1;
-constexpr std::uint32_t black = 2;
-
-Hiding with_lamps(const std::string &name) {
-    return {name,
-            {pt_material{{0.8F, 0.8F, 0.8F}, {0, 0, 0}, {0, 0, 0}, 0, 0},
-             pt_material{{0, 0, 0}, {0, 0, 0}, {5, 5, 5}, 0, 0}, pt_material{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0, 0}}};
-}
-
-TEST_F(HiddenFromCamera, BlackSurfacesKeepLightOut) {
-    Hiding shell = with_lamps("a shell");
-    shell.spheres = {ball(0, 0, -9, 1, white), ball(0, 0, -9, 1.5, black + hidden), ball(3, 5, -5, 2, lamp)};
-    Hiding wall = with_lamps("a wall");
-    wall.spheres = {ball(0, 0, -9, 1, white), ball(0, 3, 2, 1, lamp)};
-    wall.planes = {{{0, 0, 1}, 5, black + hidden, 0}};
-    Hiding sky = with_lamps("a sky within");
-    sky.spheres = {ball(0, 0, -9, 1, white), ball(0, 0, -5, 20, black + hidden), ball(0, 0, -5, 50, lamp + hidden)};
-    Hiding globe = with_lamps("a globe");
-    globe.spheres = {ball(0, 0, -9, 1, white), ball(0, 0, -1e7 - 5, 1e7, black + hidden), ball(0, 3, 2, 1, lamp)};
-    for (const Hiding &given : {shell, wall, sky, globe}) {
-        SCOPED_TRACE(given.name);
-        const pt_render render = render_of(picture_width, picture_height, 4);
-        const std::vector<float> image = image_of(given, render, 8);
-        const std::vector<float> covered = coverage();
-        Hiding open = given;
-        for (pt_sphere &sphere : open.spheres)
-            sphere.radius *= sphere.material == black + hidden ? 1e-3 : 1.0;
-        for (pt_plane &plane : open.planes)
-            plane.offset = -1e6;
-        const std::vector<float> lit = image_of(open, render, 8);
-        double light = 0.0;
-        for (std::size_t i = 0; i < image.size(); ++i)
-            if (covered[i] > 0.0F && lit[i] < 4.0F) {
-                ASSERT_EQ(image[i], 0.0F) << "at " << i;
-                light += static_cast<double>(lit[i]);
-            }
-        EXPECT_GT(light, 1.0) << "it is dark without them too";
-    }
-}
-
-TEST_F(HiddenFromCamera, ALampLightsAsIfItWereSeen) {
-    Hiding seen = with_lamps("in view");
-    seen.spheres = {ball(0, -0.5, -9, 1, white), ball(1.5, 1.5, -8, 0.5, lamp), ball(-2, 1, -7, 0.25, lamp)};
-    seen.planes = {{{0, 1, 0}, 1.5, white, 0}};
-    Hiding unseen = seen;
-    unseen.spheres[2].material += hidden;
-    for (const std::uint32_t length : {2U, 4U}) {
-        SCOPED_TRACE("path length " + std::to_string(length));
-        const pt_render emission_alone = render_of(picture_width, picture_height, 1);
-        const pt_render render = render_of(picture_width, picture_height, length);
-        const std::vector<float> lamps = image_of(seen, emission_alone, 8);
-        const std::vector<float> other_lamp = image_of(unseen, emission_alone, 8);
-        const std::vector<float> with = image_of(seen, render, 8);
-        const std::vector<float> without = image_of(unseen, render, 8);
-        std::size_t changed = 0;
-        for (std::size_t i = 0; i < with.size(); ++i)
-            if (lamps[i] == other_lamp[i])
-                ASSERT_EQ(with[i], without[i]) << "at " << i;
-            else
-                changed += without[i] < with[i] ? 1 : 0;
-        EXPECT_GT(changed, 20U);
-    }
-}
-
 TEST_F(HiddenFromCamera, FlagsThatThereAreNotAreRefused) {
-    Hiding given = with_lamps("");
+    Hiding given = closed("");
     given.materials[4].flags = 6;
     const pt_scene scene = given.scene();
     EXPECT_EQ(pt_set_scene(context(), &scene), PT_ERROR_INVALID_SCENE);
