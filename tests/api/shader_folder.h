@@ -1,4 +1,3 @@
-// An editable copy of the kernels' GLSL.
 #pragma once
 
 #include "tests/cli/temporary_folder.h"

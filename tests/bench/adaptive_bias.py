@@ -13,9 +13,9 @@ import statistics
 import sys
 
 sys.path[:0] = [str(pathlib.Path(__file__).resolve().parents[1] / folder) for folder in ("bench", "support")]
-from calibration_scenes import scenes  # noqa: E402
-from scene_file import FOLDER, read_scene  # noqa: E402
-from scene_renderer import SceneRenderer  # noqa: E402
+from calibration_scenes import scenes
+from scene_file import FOLDER, read_scene
+from scene_renderer import SceneRenderer
 
 WIDTH, HEIGHT = 96, 48
 EVEN_SAMPLES = 2048

@@ -5,7 +5,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests/support"))
-from scene_file import FOLDER, read_scene  # noqa: E402
+from scene_file import FOLDER, read_scene
 
 SIZE = (128, 64)
 SAMPLES = [16, 64, 256]

@@ -1,5 +1,4 @@
 """Measures error and CPU seconds of raw, filtered and combined images of pt, and of Mitsuba's images with the same filter.
-Makes a table and a plot.
 
     PT_LIBRARY=build/lib/libpt.so python3 tests/bench/denoise_bench.py --mitsuba mitsuba/bin/python --json denoise.json
 

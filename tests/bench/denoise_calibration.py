@@ -23,10 +23,10 @@ import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / part) for part in ("lib/python", "tests/support", "tests/bench")]
-import pt  # noqa: E402
-from calibration_scenes import scenes  # noqa: E402
-from random_scenes import hundred  # noqa: E402
-from scene_file import FOLDER  # noqa: E402
+import pt
+from calibration_scenes import scenes
+from random_scenes import hundred
+from scene_file import FOLDER
 
 COUNTS = [16, 64, 256]
 TRUTH_SEED, SEED = 9, 100

@@ -13,8 +13,8 @@ import random
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-import calibration_scenes as fixed  # noqa: E402
-from calibration_scenes import ball, lamp  # noqa: E402
+import calibration_scenes as fixed
+from calibration_scenes import ball, lamp
 
 KINDS = {}
 

@@ -39,8 +39,6 @@ def parse_arguments():
 
 
 class Program:
-    """Runs pt with its kernel caches in a folder of this script."""
-
     def __init__(self, options, folder):
         self.options, self.folder = options, folder
 

@@ -23,11 +23,11 @@ import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / folder) for folder in ("lib/python", "tests/support", "tests/bench")]
-import pt  # noqa: E402
-import random_scenes  # noqa: E402
-from bench_scenes import NAMES, load_scene  # noqa: E402
-from calibration_scenes import scenes as calibration_scenes  # noqa: E402
-from stated_error import read  # noqa: E402
+import pt
+import random_scenes
+from bench_scenes import NAMES, load_scene
+from calibration_scenes import scenes as calibration_scenes
+from stated_error import read
 
 DIFFICULT = ["stars-100", "stars-1000", "fairy-100", "street-60", "corner-ball", "caustic-small", "caustic-balls",
              "glints", "night", "hidden-sun"]

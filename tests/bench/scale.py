@@ -32,14 +32,14 @@ import time
 
 os.environ.update(MESA_SHADER_CACHE_DISABLE="true", __GL_SHADER_DISK_CACHE="0")
 
-from lamp_cloud import LampCloud  # noqa: E402
-from sphere_cloud import SphereCloud  # noqa: E402
-from table import print_table  # noqa: E402
+from lamp_cloud import LampCloud
+from sphere_cloud import SphereCloud
+from table import print_table
 
 FOLDER = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(os.path.dirname(FOLDER), "support"))
-from scene_renderer import SceneRenderer, color, structs, vector  # noqa: E402 (which finds pt)
-from pt import DeviceKind  # noqa: E402
+from scene_renderer import SceneRenderer, color, structs, vector
+from pt import DeviceKind
 
 CLOUDS = {"spheres": SphereCloud, "lamps": LampCloud, "dark-lamps": lambda count: LampCloud(count, shining=False)}
 FLOAT32, UINT32 = 1, 3

@@ -8,8 +8,8 @@ import pathlib
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "lib/python"))
-from pt import _structs as structs  # noqa: E402
-from pt._library import checked, library_path, load_library  # noqa: E402
+from pt import _structs as structs
+from pt._library import checked, library_path, load_library
 
 SAMPLERS = {"random": 1, "halton": 2, "halton-cp": 3, "sobol": 4}
 ESTIMATORS = {"best": 0, "uniform": 1, "cosine": 2, "bsdf": 3, "light": 4, "mis": 5}

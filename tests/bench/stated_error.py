@@ -23,11 +23,11 @@ import numpy
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / folder) for folder in ("lib/python", "tests/support", "tests/bench")]
-import pt  # noqa: E402
-import random_scenes  # noqa: E402
-from calibration_scenes import scenes as calibration_scenes  # noqa: E402
-from relative_error import relative_square  # noqa: E402
-from scene_file import FOLDER, read_scene  # noqa: E402
+import pt
+import random_scenes
+from calibration_scenes import scenes as calibration_scenes
+from relative_error import relative_square
+from scene_file import FOLDER, read_scene
 
 MOST_TRUTH = 1 << 17
 REFERENCE_SHARE = 0.2  # limit for the reference's error, divided by the picture's error

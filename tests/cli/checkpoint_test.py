@@ -1,5 +1,4 @@
-"""A rendering that is killed at any moment and resumed on any machine must end with the same bytes. PT_TEST_KILLS is
-the number of kills (default: 4)."""
+"""PT_TEST_KILLS is the number of kills (default: 4)."""
 
 import json
 import os

@@ -10,8 +10,8 @@ import sys
 import tempfile
 import unittest
 
-from exr import read_exr_attributes, read_exr_blocks, read_exr_channels  # noqa: F401
-from png import parse_png, png_chunks, read_png  # noqa: F401
+from exr import read_exr_attributes, read_exr_blocks, read_exr_channels  # for tests
+from png import parse_png, png_chunks, read_png  # for tests
 
 PT, FAKE_PT = os.environ["PT_PROGRAM"], os.environ["PT_FAKE_PROGRAM"]
 SCENES = str(pathlib.Path(__file__).resolve().parents[2] / "cli/scenes")

@@ -48,7 +48,7 @@ def changed(place, change):
 def changes():
     for place in places(SCENE):
         def put(other):
-            return lambda parent, key: parent.__setitem__(key, other)  # noqa: B023
+            return lambda parent, key: parent.__setitem__(key, other)
 
         for other in OTHERS if isinstance(place[-1], str) else OTHERS_IN_ARRAYS:
             yield changed(place, put(other))

@@ -11,7 +11,7 @@ import subprocess
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from png import parse_png  # noqa: E402
+from png import parse_png
 
 HERE = pathlib.Path(__file__).resolve().parent
 SOURCE = HERE.parent.parent
@@ -93,7 +93,6 @@ class Steps:
                     require(f"{place}/" not in text, f"{path} names {place}")
 
     def check_copyrights(self, share, packages):
-        """Each package must name the holders and licenses of its code, and include the licenses' texts."""
         for package in packages:
             text = (share / "doc" / package / "copyright").read_text()
             holders = re.findall(r"^Files: .*\nCopyright: .*\nLicense: (.*)$", text, re.MULTILINE)

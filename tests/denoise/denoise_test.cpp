@@ -146,8 +146,7 @@ TEST(Denoise, StatesTheSquareOfItsError) {
 }
 
 // One of 300 values in a half is brighter by 60. The filter cuts it to 4, which removes 0.2 from the mean. Each image
-// has 92,160 / 300^2 = 1 value with such light in both halves. Products of single values would state far too much loss
-// in half of the images, and none in the others.
+// has 92,160 / 300^2 = 1 value with such light in both halves.
 TEST(Denoise, StatesRareLightThatItsFilterTakesAway) {
     constexpr double probability = 1.0 / 300;
     constexpr double light = 60.0;
@@ -186,10 +185,9 @@ struct Level {
     double noise;
 };
 
-// The image has stripes of two levels. On stripes of the first level, each half has a mark at every fifth place with
-// probability 1/2. Blurring is wrong at marks. The limits allow blurring if one half has the mark, and forbid blurring
-// if both have it. Elsewhere blurring is right, so it would reduce relative errors where marks are bright, and absolute
-// errors where marks are dark.
+// On stripes of one level, each half has a mark at every fifth place with probability 1/2. At marks blurring is wrong,
+// but the limits allow it if only one half has the mark. Elsewhere blurring reduces relative errors where marks are
+// bright, and absolute errors where marks are dark.
 TEST(Denoise, KeepsMarksThatHalvesHaveByChance) {
     constexpr double mark = 0.8;
     const Level cases[][2] = {{{1, 0.05}, {1, 0.05}}, {{100, 0.005}, {1, 0.5}}, {{0.5, 0.005}, {100, 0.05}}};
@@ -228,11 +226,10 @@ TEST(Denoise, KeepsMarksThatHalvesHaveByChance) {
     }
 }
 
-// The image is a ramp, upwards in the upper half and downwards in the lower half, so a filter that shifts it by a pixel
-// keeps the mean. Both halves of the samples have opposite noise, so their mean is the ramp. The denoised image then
-// shows which fraction of the filter was chosen: nearly 1 at the left, where noise is large, and little at the right.
-// If this fraction changes linearly over a tile of 8 pixels, it changes by an eighth from pixel to pixel, without
-// steps.
+// The ramp rises in the upper half and falls in the lower half, so a filter that shifts it by a pixel keeps the mean.
+// The two halves of the samples have opposite noise, so the denoised image shows which fraction of the filter was
+// chosen. This fraction is nearly 1 at the left, where noise is large. Over a tile of 8 pixels it must change linearly,
+// without steps.
 TEST(Denoise, HasNoSeams) {
     constexpr float slope = 0.02F;
     constexpr std::size_t noisy_width = 100;

@@ -16,7 +16,7 @@ import pt
 try:
     import distributed
     from distributed import Client, LocalCluster, SpecCluster
-    import xxhash  # noqa: F401, which pt.farm needs for mixed devices
+    import xxhash  # pt.farm needs it for mixed devices
 except ImportError:
     print("skipped: Dask's distributed, or xxhash, is not installed")
     sys.exit(77)

@@ -1,5 +1,4 @@
-// Injects faults into adaptive sampling. If the call is then repeated, the film must have the same bytes as without
-// faults.
+// Injects faults into adaptive sampling.
 #include "tests/faults/allocations.h"
 #include "tests/faults/vulkan_calls.h"
 #include "tests/support/context_calls.h"

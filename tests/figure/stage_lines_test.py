@@ -115,8 +115,7 @@ class Lines(unittest.TestCase):
         np.testing.assert_allclose(edges.radius, 0.5 * 8 / 64)
 
     def test_outlines_go_round_the_balls(self):
-        """Balls have outlines where the background or another ball is behind them. There are no outlines inside balls, along cell edges in
-        front of balls, or elsewhere."""
+        """Balls have outlines only where the background or another ball is behind them."""
         for projection in ("perspective", "orthographic"):
             size = (96, 72)
             staged = staged_of(projection, size, outlines=True)

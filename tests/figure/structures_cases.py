@@ -1,5 +1,3 @@
-"""Small hand-written files of all formats of atoms. Each has its content, or the message that refuses it."""
-
 import gzip
 
 

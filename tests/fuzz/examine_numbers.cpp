@@ -1,4 +1,4 @@
-// Checks inputs without a device. Accepted inputs must keep the promises of pt.h. Refusals need a code and a message.
+// Accepted inputs must keep the promises of pt.h. Refusals need a code and a message.
 #include "tests/fuzz/examine.h"
 
 #include "lib/base/error.h"

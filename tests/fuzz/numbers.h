@@ -1,5 +1,4 @@
-// Draws ordinary numbers, numbers of any magnitude, and the ends of pt.h's ranges. A wild source also draws numbers
-// that break rules.
+// A wild source also draws numbers that break rules.
 #pragma once
 
 #include "tests/fuzz/byte_reader.h"

@@ -1,5 +1,4 @@
-// Checks the headers in C++. Numbers and types of the binary interface must never change. tests/abi/struct_layout.txt
-// has the sizes.
+// Numbers and types of the binary interface must never change. tests/abi/struct_layout.txt has the sizes.
 #include <pt/accuracy.h>
 #include <pt/async.h>
 #include <pt/compare.h>

@@ -63,8 +63,6 @@ TEST(SpecialisedCodeTest, LeavesToTheDriverWhatItDoesNotKnow) {
     EXPECT_TRUE(is_left([](Code &code) { code[5] &= 0xffffU; })) << "an instruction of no words";
 }
 
-// Calls and branches must have targets. Phis must have a value from each predecessor. Decorations such as NoContraction
-// must stay.
 void expect_whole(const Code &code, const Code &kernel) {
     const std::vector<Code> instructions = instructions_of(code);
     std::set<std::uint32_t> there;

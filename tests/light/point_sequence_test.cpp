@@ -172,7 +172,7 @@ std::uint32_t scrambled_in_64_bits(std::uint32_t coordinate, std::uint32_t seed)
 constexpr std::size_t random_count = 1U << 16;
 
 TEST(OwenScrambling, IsExact) {
-    std::mt19937 words(1); // NOLINT: fixed seed
+    std::mt19937 words(1);
     for (std::size_t i = 0; i < random_count; ++i) {
         const auto coordinate = static_cast<std::uint32_t>(words());
         const auto seed = static_cast<std::uint32_t>(words());

@@ -38,7 +38,6 @@ def radiance(context, scene, samples=4):
 
 
 def cloud(count, seed=1):
-    """Positions in front of the camera and colors in [0, 1], both float32."""
     random = np.random.default_rng(seed)
     return (random.normal((0, 1, 0), 0.7, (count, 3)).astype(np.float32),
             random.uniform(0.1, 1, (count, 3)).astype(np.float32))

@@ -23,11 +23,11 @@ from pictures import CAMERA, SCENE, SCENE_FILE, settings
 
 HAS_COMPILER = os.environ["PT_HAS_COMPILER"] == "1"
 SHADERS = pathlib.Path(__file__).resolve().parents[2] / "shaders"
-import aiohttp  # noqa: E402
-from pt.view import View, _server  # noqa: E402
-from pt.view._built_in import verdict_of  # noqa: E402
-from pt.view._frame import faults_of  # noqa: E402
-from pt.view._rejected import rejected_samples  # noqa: E402
+import aiohttp
+from pt.view import View, _server
+from pt.view._built_in import verdict_of
+from pt.view._frame import faults_of
+from pt.view._rejected import rejected_samples
 
 
 def text_of(scene):

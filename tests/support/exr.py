@@ -29,7 +29,7 @@ def read_exr_blocks(path):
 
 
 def read_exr_channels(path):
-    """Returns a row of numbers for each channel, from ZIP-compressed scan lines ("OpenEXR File Layout")."""
+    """Reads ZIP-compressed scan lines ("OpenEXR File Layout"). Returns a row of numbers for each channel."""
     with open(path, "rb") as file:
         data = file.read()
     attributes, position = parse_exr_header(data)

@@ -15,7 +15,6 @@ def png_chunks(data):
 
 
 def parse_png(data):
-    """Returns width, height and rows of numbers of an 8-bit RGB or RGBA image."""
     pixels = b""
     for kind, body in png_chunks(data):
         if kind == "IHDR":
