@@ -168,7 +168,7 @@ TEST_F(AccuracyLights, OfLampSamples) {
             continue;
         }
         lost += result.weight > 0.0F ? 0 : 1;
-        // In 1 / (2 pi h), the constant has an error of u / 2. The product adds u, and the division 5 u.
+        // In 1 / (2 pi h), the constant has an error of u / 2. The product adds u, and the division adds 5 u.
         density.add(result.density * (2 * pi * view.height), 1, view.height_share * 1.01L + 7 * half_ulp, input);
         const Real h = item.numbers.x * view.height;
         direction.add(result.direction,

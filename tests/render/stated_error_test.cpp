@@ -38,7 +38,7 @@ struct Judgement {
 
 // shaders/README.md, section 11, has the calibration. With random samples, the brightest few hundred have the largest
 // weights, so stated and true errors scatter. For sequences, stated errors are up to sqrt(3) too large
-// (error_estimate.cpp). Their denominators make them even larger.
+// (error_estimate.cpp). The denominators of relative errors make them even larger.
 constexpr Judgement of_random{0.9, 1.2};
 constexpr Judgement of_sequence{0.8, 2.0};
 
