@@ -280,7 +280,6 @@ class Looks(unittest.TestCase):
                 ("bonds = 'x': must be auto, a cutoff > 0, or pairs", {"bonds": "x"}), ("bonds = 0: must be", {"bonds": 0}),
                 ("bonds = nan: must be", {"bonds": float("nan")}), ("bonds = '-1': must be", {"bonds": "-1"}),
                 (r"bonds = of shape \(1, 3\)", {"bonds": [[0, 1, 2]]}), (r"and float64: must be", {"bonds": [[0.0, 1]]}),
-                ("outlines = True: must be False with opacity", {"outlines": True, "opacity": 0.5}),
                 (r"bonds\[1\] = \[1, 7\]: must be two different particles, from 0 to 2", {"bonds": [[0, 1], [1, 7]]}),
                 (r"bonds\[0\] = \[1, 1\]", {"bonds": [[1, 1]]}), ("model = 'cartoon': must be auto", {"model": "cartoon"}),
                 ("bond_radius = 0: must be > 0", {"bonds": 1, "bond_radius": 0}),

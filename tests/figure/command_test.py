@@ -90,7 +90,7 @@ class Command(unittest.TestCase):
                 subprocess.run([PROGRAM, "render", self.folder / "s.json", "-o", self.folder / "b.exr", "-q"], check=True)
                 subprocess.run([PROGRAM, "compare", self.folder / "a.exr", self.folder / "b.exr", "--max-mse", "0"], check=True,
                                stdout=subprocess.DEVNULL)
-        self.call_figure("water.xyz", "--write-scene", "only.json", "--legend", "l.svg", code=0)
+        self.call_figure("water.xyz", "--style", "matte", "--write-scene", "only.json", "--legend", "l.svg", code=0)
         self.assertEqual(self.names("*.svg") + self.names("only*"), [
             "l.svg", "only-capsules-1-center.npy", "only-capsules-1-end.npy", "only-center.npy", "only-color.npy",
             "only-radius.npy", "only.json"])

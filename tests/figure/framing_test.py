@@ -28,7 +28,8 @@ class FarAway(unittest.TestCase):
     def test_one_ion_far_away_does_not_decide_the_picture(self):
         elements = np.array([8, 1, 1, 8, 1, 11], np.uint8)
         whole = Particles(np.vstack([WATERS, [1000, 0, 0]]), elements=elements)
-        staged, near = Staged.of(whole, Options()), Staged.of(Particles(WATERS, elements=elements[:5]), Options())
+        staged, near = (Staged.of(each, Options(style="matte")) for each in (
+            whole, Particles(WATERS, elements=elements[:5])))
         self.assertEqual((staged.layout.camera, len(staged.drawn.centers)), (near.layout.camera, 5))
         # The center is at x = 1.98. An oxygen of radius 0.66 reaches 2.64 from it, and the ion of radius 1.66 reaches
         # 999.68.
@@ -190,7 +191,7 @@ class Radii(unittest.TestCase):
             np.testing.assert_allclose(drawn.radii, radius, rtol=1e-6)
             self.assertEqual(len(drawn.notes), int(radius != 1.06))
             for model, share in (("auto", 1.0), ("ball-and-stick", 0.5)):
-                options = Options(model=model, bonds=None if model == "auto" else apart * 1.01)
+                options = Options(style="particles", model=model, bonds=None if model == "auto" else apart * 1.01)
                 staged = list(frames(lambda: iter([particles, particles]), options))
                 np.testing.assert_allclose(staged[1].drawn.radii, share * radius, rtol=1e-6)
 

@@ -108,7 +108,7 @@ class Fit(unittest.TestCase):
         for words, look in (("view = 'sideways': must be three-quarter, front", {"view": "sideways"}),
                             ("view = '0,0,0'", {"view": "0,0,0"}), ("view = '1,2'", {"view": "1,2"}),
                             ("up = 'w'", {"up": "w"}), ("projection = 'flat'", {"projection": "flat"}),
-                            ("style = 'shiny': must be matte, glossy", {"style": "shiny"}),
+                            ("style = 'shiny': must be auto, matte, glossy", {"style": "shiny"}),
                             ("wrap: data has no cell|has no cell", {"wrap": True})):
             with self.subTest(words=words), self.assertRaisesRegex(ValueError, words):
                 layout_of(Particles(np.zeros((1, 3))), radius=1, **look)

@@ -16,6 +16,7 @@ from pt.figures._elements import categories
 from pt.figures._errors import module
 from pt.figures._options import Options
 from pt.figures._particles import Particles
+from pt.figures._residues import is_polymer
 from pt.figures._select import chosen, column, rules
 
 Bytes: TypeAlias = npt.NDArray[np.uint8]
@@ -25,6 +26,8 @@ PLAIN: Final = "#96aabe"
 # Okabe and Ito 2008, "Color Universal Design". The first two differ most in lightness, too.
 PALETTE: Final = ((0, 114, 178), (230, 159, 0), (0, 158, 115), (213, 94, 0), (86, 180, 233), (204, 121, 167),
                   (240, 228, 66))
+PALE: Final = 0.6  # of the palette's distance from white, for carbon
+TINT: Final = 0.25  # of an element's own color, beside the column's; by taste
 MOST_CATEGORIES: Final = 1000
 SKEW: Final = 4.0  # full range divided by the 1% to 99% range; uniform: 1, normal: 2, exponential: 3
 
@@ -113,6 +116,8 @@ def _named(particles: Particles, color: str, given: Options, notes: list[str]) -
     if color.startswith("|"):
         parts = [column(particles, name) for name in components(particles, color.strip("|"))]
         return _of_values(np.sqrt(np.asarray(sum(np.square(part) for part in parts))), title, given, notes)
+    if color.endswith("+element") and particles.elements is not None:
+        return _tinted(particles, color.removesuffix("+element"), given, notes)
     if color.count(",") == 2:
         return _direct(np.stack([column(particles, name) for name in color.split(",")], axis=-1), notes), None
     try:
@@ -123,6 +128,23 @@ def _named(particles: Particles, color: str, given: Options, notes: list[str]) -
         except ValueError:
             raise ValueError(f"color = {color!r} is no color, and {unknown}") from None
     return _of_values(values, title, given, notes)
+
+
+def _tinted(particles: Particles, name: str, given: Options, notes: list[str]) -> tuple[Bytes, Legend]:
+    """Carbon and hydrogen have the column's color, paler. Other elements mix it with their own. Residues that are no polymer have the
+    colors of elements."""
+    pale, legend = _named(particles, name, given, notes)
+    pale = np.broadcast_to((255.0 + PALE * (pale - 255.0)), (len(particles), 3))
+    numbers = np.asarray(particles.elements)
+    own = elements.COLORS[numbers].astype(np.float64)
+    tinted = np.where(np.isin(numbers, (1, 6))[:, None], pale, (1.0 - TINT) * pale + TINT * own)
+    if "resname" in particles.columns:
+        words, codes = np.unique(particles.columns["resname"].astype(str), return_inverse=True)
+        others = ~np.array([is_polymer(word.upper()) for word in words], bool)[codes]
+        tinted[others] = own[others]
+    if isinstance(legend, Swatches):
+        legend = Swatches(legend.title, legend.names, np.uint8(255.5 + PALE * (legend.colors - 255.0)))
+    return np.uint8(tinted + 0.5), legend
 
 
 def components(particles: Particles, name: str) -> list[str]:

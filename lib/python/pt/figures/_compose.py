@@ -8,7 +8,7 @@ import numpy.typing as npt
 from pt._fit import Doubles
 from pt.figures._overlay import Shares
 
-OUTLINE_LIGHT: Final = 0.01
+FLAT: Final = 0.75  # of the colors without light, in illustrative; by taste
 
 
 def compose(radiance: npt.NDArray[np.float32], stage: Any, shares: Shares, exposure: float) -> tuple[Doubles, Doubles]:
@@ -20,15 +20,20 @@ def compose(radiance: npt.NDArray[np.float32], stage: Any, shares: Shares, expos
     gets the change that the particles make. A pixel with coverage a has the light T(radiance) + (1 - a) (1 - T(stage)) over white, with the
     exposure T. The floor is then white and has no horizon. Alpha is the smallest that gives this light over white.
     """
+    if shares.flat is not None:
+        radiance = radiance + np.float32(FLAT) * (shares.flat + (1.0 - shares.shapes[:, :, None]) * stage - radiance)
     behind = np.clip(stage * 2.0**exposure, 0.0, 1.0)
     share = shares.shapes[:, :, None]
     light = np.clip(radiance * 2.0**exposure, 0.0, 1.0) + (1.0 - share) * (1.0 - behind)
     light = np.clip(light, 0.0, 1.0)
     alpha = np.maximum(shares.shapes, 1.0 - light.min(axis=2))
     light = np.maximum(light - (1.0 - alpha[:, :, None]), 0.0)
-    light += shares.outlines[:, :, None] * (OUTLINE_LIGHT - light)
+    light += shares.outlines[:, :, None] * (shares.ink - light)
     alpha += shares.outlines * (1.0 - alpha)
-    return light, alpha
+    if shares.fade is None:
+        return light, alpha
+    kept = 1.0 - shares.fade
+    return light * kept[:, :, None], alpha * kept
 
 
 def lay_over(light: Doubles, alpha: Doubles, background: Doubles) -> Doubles:

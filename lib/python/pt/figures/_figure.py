@@ -15,6 +15,7 @@ from pt._camera import RenderSettings
 from pt._context import Context
 from pt._denoise import find_library
 from pt._display import automatic_exposure, encode_png, linear, to_pixels
+from pt._enums import Quantity
 from pt._exr import encode_exr
 from pt._files import PICTURES, Path, format_of, write_atomically
 from pt._film import TILE_SIDE
@@ -32,16 +33,18 @@ from pt.figures._layout import Balls, Layout, View
 from pt.figures._legend import raster, save
 from pt.figures._noise import Noise, squares_of, until_invisible
 from pt.figures._options import Options, described
-from pt.figures._overlay import Overlaid, Shares, line_width, pixels_per_length, rays_per_side, read_shares
+from pt.figures._overlay import INK, Overlaid, Shares, line_width, pixels_per_length, rays_per_side, read_shares
 from pt.figures._particles import Particles
 from pt.figures._radii import opacities_of, radii_of
 from pt.figures._rods import Rods, cell_corners, cell_edges, vectors_of
 from pt.figures._select import chosen
 from pt.figures._stage import EDGES, SURROUND_BRIGHTNESS
+from pt.figures._styles import completed, groups_of, styled
 from pt.figures._trails import trails_of
 
 LEAST_LENGTH: Final = 1e-18
-INK: Final = "#222222"
+WORDS: Final = "#222222"
+STEPPED: Final = ("soft", "illustrative")
 LEAST_WIDTH: Final = 16
 LEGENDS: Final = ("svg", "pdf", "png")
 
@@ -51,7 +54,7 @@ class Drawn:
     """Particles as balls in scene units. Scene units are the data's units, times a power of two if lengths are far from 1.
 
     colors shape (n, 3), or (3,) for one color scale scene units per unit of the data settled options with the values that follow from
-    the data, in its units opacities shape (n,); None if all are opaque
+    the data, in its units opacities shape (n,); None if all are opaque groups shape (n, 2): chain and residue; None if unknown
 
     """
 
@@ -65,6 +68,11 @@ class Drawn:
     rods: Sequence[Rods] = ()
     settled: dict[str, float] = field(default_factory=dict)
     opacities: Array | None = None
+    groups: Array | None = None
+
+    @property
+    def all_groups(self) -> Array | None:
+        return None if self.groups is None else np.concatenate([self.groups, *(self.groups[each.atoms] for each in self.rods)])
 
     @property
     def balls(self) -> Balls:
@@ -94,6 +102,8 @@ def prepare(particles: Particles, options: Options, scale: float | None = None, 
         raise ValueError(f"{particles.name} has no particles")
     if options.wrap:
         particles = particles.wrapped()
+    if options.style == "crystal":
+        particles = completed(particles)
     radii = radii_of(particles, options.radius, notes)
     colors, legend = colors_of(particles, options, notes)
     opacities = opacities_of(particles, options.opacity)
@@ -121,11 +131,13 @@ def prepare(particles: Particles, options: Options, scale: float | None = None, 
         colors = colors[shown] if colors.ndim == 2 else colors
         opacities = opacities[shown] if opacities is not None and len(opacities) > 1 else opacities
         rods = [each.among(shown) for each in rods]
+    groups = groups_of(particles) if options.style == "illustrative" else None
+    groups = groups if shown is None or groups is None else groups[shown]
     cell = drawn_cell(particles, options.box, positions, radii, notes)
     centers, radii, cell, scale = _in_range(positions, radii, cell, scale)
     return Drawn(centers, np.broadcast_to(radii, len(centers)) if len(radii) == 1 else radii, colors, legend, cell,
                  scale, notes, [each.times(scale, LEAST_LENGTH) for each in rods], settled,
-                 None if opacities is None else np.broadcast_to(opacities, len(centers)))
+                 None if opacities is None else np.broadcast_to(opacities, len(centers)), groups)
 
 
 def _shown(particles: Particles, options: Options, radii: Array, notes: list[str]) -> Array | None:
@@ -171,7 +183,7 @@ def _in_range(positions: Array, radii: Array, cell: Cell | None, scale: float | 
 def view_of(drawn: Drawn, options: Options, turns: bool = False) -> View:
     size = options.size
     if size is not None and options.colorbar and drawn.legend is not None:
-        size = size[0] - _strip_width(raster(drawn.legend, size[1], INK), size[1]), size[1]
+        size = size[0] - _strip_width(raster(drawn.legend, size[1], WORDS), size[1]), size[1]
         if size[0] < LEAST_WIDTH:
             raise ValueError(f"size = {options.size}: has no room for particles beside the color bar")
     if options.camera is not None:
@@ -187,7 +199,10 @@ class Staged:
 
     @staticmethod
     def of(particles: Particles, options: Options) -> Staged:
+        notes: list[str] = []
+        options = styled(particles, options, notes)
         drawn = prepare(particles, options)
+        drawn.notes.extend(notes)
         return Staged.seen(drawn, view_of(drawn, options), options)
 
     @staticmethod
@@ -202,7 +217,10 @@ class Staged:
 
     @functools.cached_property
     def scene(self) -> Scene:
-        stage, drawn = self.layout.stage, self.drawn
+        return self._scene_of(self.drawn)
+
+    def _scene_of(self, drawn: Drawn) -> Scene:
+        stage = self.layout.stage
         material = self.options.material or stage.material
         colors: Array | None = drawn.colors
         if drawn.colors.ndim == 1:
@@ -232,14 +250,34 @@ class Staged:
         self.notes.append("the draft is noisy: Open Image Denoise, by pip install pyoidn (88 MB), would remove the noise")
         return False
 
+    def _with_look(self, context: Context, settings: RenderSettings, shares: Shares) -> Shares:
+        """Adds the flat colors and the fading of the style."""
+        layout, options = self.layout, self.options
+        if options.style == "illustrative":
+            context.set_render(settings)
+            albedo = context.readback(Quantity.ALBEDO)
+            around = np.max([np.roll(albedo, (k // 3 - 1, k % 3 - 1), (0, 1)) for k in range(9)], axis=0)
+            shares = replace(shares, flat=albedo, ink=INK * around)
+        if shares.depths is not None:
+            near, deep = layout.distance - 0.5 * layout.deep, max(layout.deep, LEAST_LENGTH)
+            fade = options.depth_cue * np.clip((shares.depths - near) / deep, 0.0, 1.0) * (shares.shapes > 0.0)
+            shares = replace(shares, fade=fade)
+        return shares
+
     def draw(self, context: Context) -> Figure:
         camera, scene, options = self.layout.camera, self.scene, self.options
         lamps, count = self.layout.stage.lamps, sum(map(len, scene.sphere_arrays))
         settings = RenderSettings(*self.layout.size, max_path_length=options.max_path_length, seed=options.seed)
-        overlaid = Overlaid(len(lamps), count, self.drawn.all_radii, options.outlines)
-        context.set_scene(scene)
+        overlaid = Overlaid(len(lamps), count, self.drawn.all_radii, options.outlines, options.depth_cue > 0.0,
+                            options.style in STEPPED, self.drawn.all_groups if options.style == "illustrative" else None)
+        solid = None if self.drawn.opacities is None else replace(self.drawn, opacities=1.0 * (self.drawn.opacities >= 0.5))
+        context.set_scene(scene if solid is None or not options.outlines else self._scene_of(solid))
         context.set_camera(camera)
         shares = read_shares(context, camera, settings, overlaid)
+        if solid is not None and options.outlines:
+            context.set_scene(scene)
+            shares = replace(read_shares(context, camera, settings, replace(overlaid, outlines=False)), outlines=shares.outlines)
+        shares = self._with_look(context, settings, shares)
         stage: Any = SURROUND_BRIGHTNESS if len(lamps) > 1 else 1.0
         denoise = options.denoise or options.draft and self._can_denoise()
         if options.stops_by_noise:
@@ -250,7 +288,8 @@ class Staged:
                                    progress=options.progress, denoise=denoise)
         if self.drawn.opacities is not None:
             per_side = rays_per_side(image.stats.mean_sample_count, settings.width * settings.height)
-            shares = read_shares(context, camera, settings, overlaid, per_side)
+            shapes = read_shares(context, camera, settings, replace(overlaid, outlines=False), per_side).shapes
+            shares = replace(shares, shapes=shapes)
         if not shares.shapes.any():
             self.notes.append("the picture is blank: no ball is in view")
         if scene.planes:
@@ -295,7 +334,7 @@ class Figure(Image):
         options = self._staged.options
         if not options.colorbar or self.legend is None:
             return width, height
-        return options.size or (width + _strip_width(raster(self.legend, height, INK), height), height)
+        return options.size or (width + _strip_width(raster(self.legend, height, WORDS), height), height)
 
     def to_srgb8(self, exposure: float | None = None, **display: Any) -> npt.NDArray[np.uint8]:
         """Returns sRGB, shape (height, width, 3), or 4 channels with a transparent background. exposure: stops; None:
@@ -362,10 +401,10 @@ class Figure(Image):
 
 def _background(background: Any) -> tuple[Doubles | None, str]:
     if isinstance(background, str) and background == "transparent":
-        return None, INK
+        return None, WORDS
     color = (255, 255, 255) if isinstance(background, str) and background == "white" else srgb("background", background)
     signal = np.array(color) / 255.0
-    return signal, INK if linear(signal) @ (0.2126, 0.7152, 0.0722) > 0.18 else "#dddddd"
+    return signal, WORDS if linear(signal) @ (0.2126, 0.7152, 0.0722) > 0.18 else "#dddddd"
 
 
 def _pixels(radiance: Array, stage: Any, shares: Shares, exposure: float, background: Doubles | None, dtype: Any, **display: Any

@@ -17,6 +17,7 @@ VERTICAL_FOV: Final = 20.0 * math.pi / 180.0
 MARGIN: Final = 0.03  # free fraction of the picture at each side; by taste
 PIXELS: Final = 1024.0 * 768.0
 MOST_ASPECT: Final = 2.0
+BLUR: Final = 0.012  # by taste
 
 
 @dataclass(frozen=True)
@@ -89,13 +90,15 @@ def _shape(extents: Doubles) -> tuple[int, int]:
 
 @dataclass(frozen=True)
 class Layout:
-    """`distance` goes from the camera to the middle of the contents along the view. Inside the contents, it is half of their extent."""
+    """`distance` goes from the camera to the middle of the contents along the view. Inside the contents, it is half of their extent.
+    `deep` is their extent along the view."""
 
     size: tuple[int, int]
     axes: Doubles
     camera: Camera
     distance: float
     stage: Stage
+    deep: float = 0.0
 
     @staticmethod
     def of(view: View, reaches: Doubles, style: str, floor: bool) -> Layout:
@@ -119,14 +122,23 @@ class Layout:
             if view.spin is not None:
                 position = position - ((position - view.spin.through) @ axes[0]) * axes[0]
             distance = float(forward @ (center - position))
-            camera = Camera(position, position + distance * forward, axes[1], vertical_fov=VERTICAL_FOV)
+            camera = Camera(position, position + distance * forward, axes[1], vertical_fov=VERTICAL_FOV,
+                            **(_lens(distance, float(extents.size[2])) if style == "cover" else {}))
         plane = None
         if floor:
             up, height = view.compass.up, -float(reaches[6]) - FLOOR_GAP * radius
             if up @ position <= height:
                 raise ValueError("floor: the camera is below it, by the view, and would see nothing else")
             plane = Plane(up, -height, FLOOR)
-        return Layout(view.size, axes, camera, distance, make_stage(style, axes, distance, center, radius, plane))
+        return Layout(view.size, axes, camera, distance, make_stage(style, axes, distance, center, radius, plane),
+                      float(extents.size[2]))
+
+
+def _lens(distance: float, deep: float) -> dict[str, float]:
+    """The far end is blurred to a circle of BLUR of the picture's height."""
+    focus = distance - 0.25 * deep
+    spread = 1.0 / focus - 1.0 / (distance + 0.5 * deep)
+    return {"aperture": min(2.0 * BLUR * math.tan(0.5 * VERTICAL_FOV) / spread, focus), "focus": focus} if spread > 0.0 else {}
 
 
 def _rotation(axis: Doubles, angle: float) -> Doubles:

@@ -24,6 +24,8 @@ Direction: TypeAlias = "str | Sequence[float] | npt.NDArray[Any]"
 Columns: TypeAlias = "Mapping[str, str] | str | None"
 
 VIEWS: Final = ("three-quarter", "front", "back", "left", "right", "top", "bottom")
+STYLES: Final = ("matte", "glossy", "ambient-occlusion", "molecule", "protein", "crystal", "particles", "point-cloud", "galaxy",
+                 "soft", "illustrative", "cover")
 MODELS: Final = ("auto", "space-filling", "ball-and-stick", "sticks")
 SAMPLES: Final = 128
 DRAFT_SAMPLES: Final = 8
@@ -75,7 +77,7 @@ class Options:
     color: Color = _particles(
         None, "COLUMN|COLOR|...", "a column of numbers or words; a magnitude, \"|velocity|\" or \"|vx,vy,vz|\"; columns of "
         "sRGB, \"red,green,blue\"; one color, \"#ff8000\" or \"orange\"; colors of types and selections, \"O=red,H=#ffffff,chain A=blue\", "
-        "also after a column. In Python also "
+        "also after a column; \"chain+element\", a column tinted by elements. In Python also "
         "{\"O\": \"red\"}, and arrays of shape (n,), or (n, 3) of sRGB, floats from 0 to 1 or uint8. Default: Jmol's colors of "
         "elements, with light grey hydrogen; else a palette of types; else the data's colors; else grey")
     colormap: Any = _particles(None, "MAP", "name of a matplotlib colormap; the suffix _r reverses it. In Python also an object. "
@@ -125,10 +127,14 @@ class Options:
                             "if the other balls then appear 4 times as large")
     camera: Camera | None = _python(None, "", "camera in the units of the data, instead of view and projection")
 
-    style: str = _look("matte", "", "ambient-occlusion has only light from all sides",
-                       choices=("matte", "glossy", "ambient-occlusion"))
+    style: str = _look("auto", "", "look; auto is molecule, protein, crystal, particles, point-cloud or galaxy, after the data. "
+                       "particles and matte are the plain look, ambient-occlusion has only light from all sides, soft also outlines, "
+                       "illustrative flat colors and outlines that are wider at larger steps, cover gloss, a floor and a lens. A style "
+                       "sets only options that are not given", choices=("auto", *STYLES))
     material: Material | None = _python(None, "", "material of the particles, instead of the style's; colors multiply its diffuse")
-    outlines: bool = _look(False, "", "dark lines around the balls; not with opacity")
+    outlines: bool = _look(False, "", "dark lines around the balls; with opacity around those that are at least half opaque")
+    depth_cue: float = _look(0.0, "SHARE", "by how much the farthest balls fade to the background, from 0 to 1", read=_share,
+                             rule=(lambda share: 0.0 <= share <= 1.0, "from 0 to 1"))
     floor: bool = _look(False, "", "a floor of which only the shadows are visible")
     background: Any = _look("white", "COLOR", "a color, or transparent")
     box: str = _look("auto", "", "display of the cell, if the data have one. auto draws lines, except for a protein's crystal, for a "
@@ -163,8 +169,6 @@ class Options:
             if holds and value is not None and not holds(value):
                 raise ValueError(f"{each.name} = {value}: must be {words}")
         self._models  # checks it
-        if self.outlines and self.opacity is not None:
-            raise ValueError("outlines = True: must be False with opacity, which leaves no edges in front")
 
     @property
     def reading(self) -> dict[str, Any]:

@@ -20,21 +20,40 @@ LEAST_STEP: Final = 0.1
 LEAST_RADIUS: Final = 2.5
 
 
+OUTLINE_LIGHT: Final = 0.01
+SMALL_STEP: Final = 1.0  # in radii; by taste, as the next four
+LARGE_STEP: Final = 8.0
+WIDER: Final = 2.0  # width of outlines at large steps
+RESIDUES_APART: Final = 6
+INK: Final = 0.2  # of a shape's color in its outline, in illustrative
+
+
 @dataclass(frozen=True)
 class Shares:
+    """Numbers of the pixels from first hits: coverage by shapes and outlines, mean depth of the shapes, and how far they fade. `flat`
+    has colors without light, and None uses the light."""
+
     shapes: Doubles
     outlines: Doubles
+    depths: Doubles | None = None
+    fade: Doubles | None = None
+    flat: Array | None = None
+    ink: Any = OUTLINE_LIGHT
 
 
 @dataclass(frozen=True)
 class Overlaid:
     """The shapes are `count` particles, then bonds, vectors and edges of the cell. `first` is the index of the first particle among all
-    spheres and capsules. `radii`, shape (n,), leave out edges, which have no outlines."""
+    spheres and capsules. `radii`, shape (n,), leave out edges, which have no outlines. With `steps`, outlines are at larger steps of
+    depth, and between different `groups`, shape (n, 2), of chain and residue."""
 
     first: int
     count: int
     radii: Array
     outlines: bool
+    depths: bool = False
+    steps: bool = False
+    groups: Array | None = None
 
 
 def line_width(size: tuple[int, int]) -> float:
@@ -52,12 +71,13 @@ def read_shares(context: Context, camera: Camera, settings: RenderSettings, over
     """Replaces the render settings of the context. Outlines take PER_SIDE rays."""
     width, height = settings.width, settings.height
     shares = Shares(np.zeros((height, width)), np.zeros((height, width)))
-    margin = math.ceil(0.5 * line_width((width, height))) + 1 if overlaid.outlines else 0
+    margin = math.ceil(0.5 * WIDER * line_width((width, height))) + 1 if overlaid.outlines else 0
+    means = np.zeros((height, width))
     band = max(BAND_ROWS * PER_SIDE**2 // per_side**2, 1)
     for first in range(0, height, band):
         end = min(first + band, height)
         top, bottom = max(first - margin, 0), min(end + margin, height)
-        objects, depths = _first_hits(context, settings, top, bottom, per_side, overlaid.outlines)
+        objects, depths = _first_hits(context, settings, top, bottom, per_side, overlaid.outlines or overlaid.depths)
         index = objects - np.uint32(overlaid.first)
         wanted = slice((first - top) * per_side, (end - top) * per_side)
         shares.shapes[first:end] = _share(index[wanted] < overlaid.count, per_side)
@@ -65,7 +85,11 @@ def read_shares(context: Context, camera: Camera, settings: RenderSettings, over
             pixels = pixels_per_length(camera, height, depths)
             covered = _outlines(index, depths, overlaid, pixels, line_width((width, height)))
             shares.outlines[first:end] = _share(covered[wanted], per_side)
-    return shares
+        if overlaid.depths:
+            hits = (index < overlaid.count)[wanted].reshape(end - first, per_side, width, per_side)
+            sums = depths[wanted].reshape(hits.shape).sum(axis=(1, 3), where=hits, dtype=np.float64)
+            means[first:end] = sums / np.maximum(hits.sum(axis=(1, 3)), 1)
+    return replace(shares, depths=means if overlaid.depths else None)
 
 
 def _share(hits: Array, per_side: int) -> Doubles:
@@ -97,10 +121,21 @@ def _outlines(index: Array, depths: Array, overlaid: Overlaid, pixels: Any, widt
     has_outline, is_shape = index < len(overlaid.radii), index < overlaid.count
     radii = overlaid.radii[np.where(has_outline, index, 0) if overlaid.radii.strides[0] else np.zeros_like(index)]
     large = has_outline & (radii * pixels >= LEAST_RADIUS * width)
-    edges = np.zeros(index.shape, bool)
+    groups = None if overlaid.groups is None else overlaid.groups[np.where(has_outline, index, 0)]
+    edges, wide = np.zeros(index.shape, bool), np.zeros(index.shape, bool)
     for here, other in _neighbours():
-        edges[here] |= (large[here] & (index[here] != index[other]) &
-                        (~is_shape[other] | (depths[other] > depths[here] + LEAST_STEP * radii[here])))
+        steps, open_ = depths[other] - depths[here], ~is_shape[other]
+        behind = open_ | (steps > (SMALL_STEP if overlaid.steps else LEAST_STEP) * radii[here])
+        if groups is not None:
+            apart = np.abs(groups[here] - groups[other])
+            behind |= ((apart[..., 0] > 0) | (apart[..., 1] >= RESIDUES_APART)) & (steps >= 0.0)
+        edges[here] |= large[here] & (index[here] != index[other]) & behind
+        if overlaid.steps:
+            wide[here] |= large[here] & (open_ | (steps > LARGE_STEP * radii[here]))
+    return _widened(edges, width) | (_widened(wide, WIDER * width) if overlaid.steps else False)
+
+
+def _widened(edges: Array, width: float) -> Array:
     reach = math.floor(0.5 * width * PER_SIDE)
     covered = edges.copy()
     padded = np.pad(edges, reach)

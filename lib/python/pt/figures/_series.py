@@ -15,6 +15,7 @@ from pt.figures._layout import Layout, View
 from pt.figures._options import Options, Radius
 from pt.figures._particles import Particles
 from pt.figures._radii import covalent_factor
+from pt.figures._styles import styled
 
 
 def frames(read: Callable[[], Iterator[Particles]], options: Options, trails: int = 0) -> Iterator[Staged]:
@@ -34,6 +35,8 @@ def _common(trajectory: Iterator[Particles], options: Options) -> tuple[Options,
     bars: list[ColorBar] = []
     names: dict[str, None] = {}
     for particles in trajectory:
+        if view is None:
+            options = styled(particles, options, particles.notes)
         drawn = prepare(particles, options, scale)
         if view is None:
             options = replace(options, radius=_rule(particles, drawn, options))
@@ -62,6 +65,7 @@ def _rule(particles: Particles, drawn: Drawn, options: Options) -> Radius:
 
 
 def turntable(particles: Particles, count: int, options: Options) -> Iterator[Staged]:
+    options = styled(particles, options, particles.notes)
     drawn = prepare(particles, options)
     view = view_of(drawn, options, turns=True)
     for k in range(count):

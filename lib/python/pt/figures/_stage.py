@@ -27,8 +27,12 @@ class Stage:
     material: Material
 
 
+AMBIENT: Final = frozenset(("ambient-occlusion", "protein", "point-cloud", "soft", "illustrative"))
+GLOSSY: Final = frozenset(("glossy", "cover"))
+
+
 def material_of(style: str) -> Material:
-    specular = 0.12 if style == "glossy" else 0.0
+    specular = 0.12 if style in GLOSSY else 0.0
     return Material(diffuse=1.0 - specular, specular=specular, glossiness=60.0 if specular else 0.0)
 
 
@@ -37,7 +41,7 @@ def make_stage(style: str, axes: Doubles, distance: float, center: Doubles, radi
     material = material_of(style)
     # The key lamp is farther than the camera, so its light hardly falls off over the data.
     far = max(20.0 * radius, 4.0 * distance)
-    occlusion = style == "ambient-occlusion"
+    occlusion = style in AMBIENT
     surround = Sphere(center, 10.0 * far, Material(emission=1.0 if occlusion else SURROUND_BRIGHTNESS))
     if occlusion:
         return Stage((surround,), floor, material)

@@ -1,0 +1,106 @@
+"""Looks by kind of data. A style gives values to options that have their defaults."""
+
+from __future__ import annotations
+
+from dataclasses import fields, replace
+from typing import Any, Final
+
+import numpy as np
+
+from pt._fit import Array
+from pt.figures._colors import components
+from pt.figures._options import Options
+from pt.figures._particles import Particles
+from pt.figures._radii import covalent_factor
+from pt.figures._residues import is_polymer
+
+MOST_ATOMS: Final = 500  # of a molecule or crystal drawn with bonds; by taste
+LEAST_POLYMER: Final = 20  # atoms
+LEAST_POINTS: Final = 1000
+SPACE: Final = 60.0  # cubic angstroms of the cell for each atom, at most, in a crystal
+WALL: Final = 1e-3  # distance from a wall, as a share of the edge, at which an atom is also drawn at the opposite wall
+STARS: Final = ("age", "stellar_age", "metallicity", "formation_time")
+
+VALUES: Final[dict[str, dict[str, Any]]] = {
+    "molecule": {"bonds": "auto"},
+    "protein": {"radius": "van-der-waals", "color": "chain+element", "where": ("not water",), "box": "none"},
+    "crystal": {"bonds": "auto", "wall_bonds": "none", "box": "lines"},
+    "point-cloud": {"box": "none", "depth_cue": 0.4},
+    "galaxy": {"background": "#04060c", "box": "none"},
+    "soft": {"outlines": True},
+    "illustrative": {"outlines": True, "box": "none"},
+    "cover": {"floor": True},
+}
+WORDS: Final = {"molecule": "balls and sticks", "protein": "chains by color, no water, no cell", "crystal": "bonds, cell and all corner atoms",
+                "point-cloud": "soft light, far points paler", "galaxy": "a dark background"}
+
+
+def styled(particles: Particles, options: Options, notes: list[str]) -> Options:
+    """Options without style auto, and with the values of their style."""
+    style = options.style
+    if style == "auto":
+        style = kind_of(particles, options)
+        if style in WORDS:
+            notes.append(f"style is {style}: {WORDS[style]}; --style particles (style='particles') is the plain one")
+    values = dict(VALUES.get(style, {}))
+    if particles.elements is None:
+        values = {name: value for name, value in values.items() if name not in ("bonds", "radius")}
+    if "chain" not in particles.columns or "resname" not in particles.columns:
+        values = {name: value for name, value in values.items() if name not in ("color", "where")}
+    if values.get("bonds") and options.drawn_model == "space-filling" and options.model != "auto":
+        del values["bonds"]
+    defaults = {each.name: each.default for each in fields(Options)}
+    return replace(options, style=style, **{name: value for name, value in values.items()
+                                            if _is(getattr(options, name), defaults[name])})
+
+
+def _is(value: Any, default: Any) -> bool:
+    return value is default or type(value) is type(default) and bool(value == default)
+
+
+def kind_of(particles: Particles, options: Options) -> str:
+    count, cell, elements = len(particles), particles.cell, particles.elements
+    if elements is not None:
+        if "resname" in particles.columns:
+            names, counts = np.unique(particles.columns["resname"].astype(str), return_counts=True)
+            if sum(number for name, number in zip(names, counts) if is_polymer(name.upper())) >= LEAST_POLYMER:
+                return "protein"
+        is_small = count <= MOST_ATOMS and bool(elements.all()) and options.radius is None and particles.radii is None
+        if is_small and cell is not None and cell.periodic.all():
+            return "crystal" if abs(np.linalg.det(cell.vectors)) < SPACE * count else "particles"
+        return "molecule" if is_small and count > 1 and covalent_factor(particles) == 1.0 else "particles"
+    if particles.types is None and count >= LEAST_POINTS and cell is None:
+        if any(name in particles.columns for name in STARS):
+            return "galaxy"
+        if particles.colors is not None or len(components(particles, "n")) == 3 and "nx" in particles.columns:
+            return "point-cloud"
+    return "particles"
+
+
+def completed(particles: Particles) -> Particles:
+    """Adds atoms at the opposite walls, so that a crystal's cell has all of its corners. The copies are bonded by distance."""
+    cell = particles.cell
+    if cell is None:
+        return particles
+    shares = (particles.positions - cell.origin) @ cell.inverse
+    rows, steps = np.arange(len(particles)), np.zeros((len(particles), 3))
+    for axis in np.flatnonzero(cell.periodic):
+        places = shares[rows, axis] + steps[:, axis]
+        way = np.where(np.abs(places) < WALL, 1.0, np.where(np.abs(places - 1.0) < WALL, -1.0, 0.0))
+        more = np.flatnonzero(way)
+        rows = np.concatenate([rows, rows[more]])
+        steps = np.concatenate([steps, steps[more] + way[more, None] * np.eye(3)[axis]])
+    if len(rows) == len(particles):
+        return particles
+    result = replace(particles, bonds=None).select(rows)
+    result.positions += (steps @ cell.vectors).astype(result.positions.dtype)
+    return result
+
+
+def groups_of(particles: Particles) -> Array | None:
+    """Numbers of chain and residue, shape (n, 2); None if the data have no chains."""
+    if "chain" not in particles.columns:
+        return None
+    _, chains = np.unique(particles.columns["chain"].astype(str), return_inverse=True)
+    residues = particles.columns.get("resid", np.zeros(len(particles), np.int64))
+    return np.stack([chains.reshape(-1), residues.astype(np.int64)], axis=1)
