@@ -185,7 +185,6 @@ TEST(StructSize, CreateInfo) {
     expect_sizes_heeded(info, "create", call);
 }
 
-// The call must write exactly as many bytes as the caller's size, and reject sizes that never existed.
 template <typename T, typename Call>
 void expect_written_sizes_heeded(const T &whole, const std::string &name, const Call &call) {
     for (const uint32_t size : older_sizes<T>()) {

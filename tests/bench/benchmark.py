@@ -1,8 +1,6 @@
 """Renders the benchmark's scenes with pt's default, with all other samplers and estimators, and with Mitsuba. Prints a
 table, and draws error against time (benchmark.png, with matplotlib).
 
-    PT_LIBRARY=build/lib/libpt.so python3 tests/bench/benchmark.py --mitsuba mitsuba/bin/python --json benchmark.json
-
 --mitsuba names a Python with Mitsuba:
 
     python3 -m venv mitsuba && mitsuba/bin/pip install mitsuba

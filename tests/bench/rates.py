@@ -1,7 +1,5 @@
 """Measures how fast pt takes samples, and how fast it starts.
 
-    python3 tests/bench/rates.py --pt build/bin/pt --json rates.json
-
 Each round runs all cases in turn. Figures are medians.
 
 samples/s       from the difference of two sample counts, per wall second of sampling and per CPU second (not on a GPU)

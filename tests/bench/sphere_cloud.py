@@ -17,8 +17,8 @@ def surroundings():
 
 
 class SphereCloud:
-    """The columns of centers and radii are floats. Materials are indices into MATERIALS. Some neighbors overlap. The
-    filled fraction of space does not depend on the count."""
+    """The columns of centers and radii are floats. Materials are indices into MATERIALS. The filled fraction of space
+    does not depend on the count."""
 
     def __init__(self, count):
         uniform = random.Random(SEED).uniform

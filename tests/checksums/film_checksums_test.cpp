@@ -121,8 +121,7 @@ std::vector<std::string> lines_of(const std::string &device) {
     return lines;
 }
 
-// A line of the file names a scene and a sampler. PT_TEST_MANY renders every line with every context. By default each
-// line has one context.
+// A line of the file names a scene and a sampler. PT_TEST_MANY renders every line with every context, instead of one.
 TEST_F(FilmChecksums, AreThoseOfBefore) {
     const std::vector<std::string> expected = lines_of(device_name());
     if (expected.empty())

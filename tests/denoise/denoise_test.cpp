@@ -28,7 +28,7 @@ double limit_at(std::size_t index) {
     return 0.6 + 0.4 * static_cast<double>(index / 3 % width / 12 % 2) + 0.1 * static_cast<double>(index % 3);
 }
 
-// The values' distribution is exponential, because light is often skewed. `deviation` is relative to the mean.
+// `deviation` is relative to the mean.
 Pixels noisy(std::uint64_t seed, double deviation) {
     std::mt19937_64 random(seed);
     Pixels pixels(value_count);
@@ -165,7 +165,6 @@ TEST(Denoise, StatesRareLightThatItsFilterTakesAway) {
     }
 }
 
-// With little noise, the planted faults of the filter exceed the noise that it removes.
 TEST(Denoise, IsNoWorseThanTheRawImage) {
     for (const char *wish : {"identity", "", "shift", "darken"})
         for (const double deviation : {much_noise, 0.2, 0.02})

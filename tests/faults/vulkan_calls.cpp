@@ -74,7 +74,6 @@ VkDevice device_of(const std::tuple<A...> &arguments) {
         return VK_NULL_HANDLE;
 }
 
-// Returns no value if the real call must be made.
 std::optional<VkResult> result_by_plan(Call call) {
     const std::vector<VkResult> &errors = function(call).errors;
     if (errors.empty() || ++call_count != failing_number)

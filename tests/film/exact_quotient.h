@@ -69,7 +69,7 @@ inline long double exact_standard_error(pt::WideSum sum_a, std::uint32_t a, pt::
     return std::ldexp(numerator / sum / std::sqrt(static_cast<long double>(a) * b), exponent);
 }
 
-// Whether `found` is within .52 ulp of `exact`. Includes both ends of float's range.
+// Whether `found` is within .52 ulp of `exact`.
 inline bool is_close(float found, long double exact) {
     if (std::isinf(found))
         return exact >= 0x1.ffffffp127L;

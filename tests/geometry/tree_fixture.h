@@ -1,4 +1,3 @@
-// A context with every sphere in a tree, and one without a tree.
 #pragma once
 
 #include "tests/support/context_fixture.h"

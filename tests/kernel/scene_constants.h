@@ -1,4 +1,3 @@
-// Specialization constants that say where the kernel's scene is stored.
 #pragma once
 
 #include "shaders/specialization.h"

@@ -17,7 +17,6 @@ namespace {
 
 using Coordinates = std::vector<std::uint32_t>;
 
-// Whether all intervals [i, i + 1) / 2^digits hold equally many points.
 bool fills_intervals(const Coordinates &points, std::uint32_t digits) {
     std::vector<std::uint32_t> hits(std::size_t{1} << digits);
     for (const std::uint32_t point : points)

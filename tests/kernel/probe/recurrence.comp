@@ -1,4 +1,3 @@
-// x -> x * multiplier + increment.
 #version 450
 
 layout(local_size_x = 64) in;
