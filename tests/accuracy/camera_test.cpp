@@ -58,8 +58,8 @@ std::vector<Item> items() {
 constexpr Real bound = (2.9L + 2 + 15.5L) * half_ulp;
 
 // Bounds the distance of the lens ray from the pinhole ray in the plane of focus, divided by the rays' length. The
-// radius adds an error of 7 u: 2 u for the place on the lens in the origin, 2 u for the same place in the direction, u
-// for the direction's length, and 2 u for the position in the image.
+// radius adds an error of 7 u: 2 u for lens_radius in the origin, 2 u for lens_blur in the direction, u for the
+// direction's length, and 2 u for the position in the image.
 Real lens_bound(Real radius, Real distance) {
     return 7 * half_ulp * radius / distance + bound;
 }
