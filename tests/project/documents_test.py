@@ -88,6 +88,20 @@ def commands_without_source(text):
 
 
 class Documents(unittest.TestCase):
+    def test_recipes_name_the_files_of_samplers_and_estimators(self):
+        text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+        generated = {"lib/include/pt/pt.h", "lib/scene_file/enumerations.h", "shaders/enumerations.h"}
+        for recipe, constant in (("A sampler", "SAMPLER"), ("An estimator", "ESTIMATOR")):
+            paragraph = text.split(f"**{recipe}.**")[1].split("\n\n")[0]
+            if constant == "ESTIMATOR":
+                paragraph = paragraph.replace("defaults", "`lib/scene/render_settings.cpp` `shaders/specialization.h`")
+            named = set(re.findall(r"`((?:lib|shaders)/[\w/]+\.\w+)`", paragraph))
+            uses = {path.relative_to(ROOT).as_posix() for folder in ("lib", "shaders") for path in (ROOT / folder).rglob("*")
+                    if path.suffix in (".cpp", ".h", ".glsl") and path.parent.name != "pt"
+                    and re.search(rf"(?<!\w)(?:PT_)?{constant}_(?!BEST)[A-Z]+", path.read_text(encoding="utf-8"))}
+            self.assertGreater(len(uses), 5)
+            self.assertEqual({name for name in uses - named - generated if re.sub(r"\.h$", ".cpp", name) not in named}, set(), recipe)
+
     def test_links_lead_somewhere(self):
         self.assertIn(ROOT / "README.md", PAGES)
         for page in PAGES:

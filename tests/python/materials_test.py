@@ -1,0 +1,74 @@
+"""Tests the material of shaders/MATERIALS.md on kinds of scenes: all estimators must show the light that uniform directions find,
+which read no density of the model."""
+
+import dataclasses
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+import numpy as np
+import pt
+
+SHADERS = pathlib.Path(__file__).resolve().parents[2] / "shaders"
+WHITE, GLOSSY = pt.Material(diffuse=(0.7, 0.6, 0.5)), pt.Material(diffuse=0.3, specular=0.4, glossiness=4)
+LAMP, SKY = pt.Material(diffuse=0.2, emission=(4, 3, 2)), pt.Material(emission=(0.5, 0.7, 1))
+ROOM = [pt.Plane(normal, 4, material) for normal, material in (
+    ((1, 0, 0), WHITE), ((-1, 0, 0), GLOSSY), ((0, 1, 0), WHITE), ((0, -1, 0), LAMP), ((0, 0, 1), WHITE), ((0, 0, -1), WHITE))]
+FLOOR = [pt.Plane((0, 1, 0), 2, WHITE)]
+BALLS = [pt.Sphere((-1, -1, 0), 1, GLOSSY), pt.Sphere((1.2, 1, -1), 1.5, LAMP), pt.Sphere((-2, 1, -2), 1, WHITE)]
+CLOUD = [pt.Sphere(center, 0.25, material) for center, material in zip(np.random.default_rng(3).uniform(-2, 2, (200, 3)), 50 * [WHITE, WHITE,
+         GLOSSY, WHITE])]
+DOME = [pt.Sphere((0, 0, 0), 100, SKY)]
+SCENES = {"a closed room": pt.Scene(BALLS, ROOM), "a sky": pt.Scene(BALLS + DOME, FLOOR), "a sky alone": pt.Scene(BALLS[2:] + DOME, FLOOR),
+          "a tree": pt.Scene(CLOUD + BALLS[1:2] + DOME, FLOOR), "a tree in a room": pt.Scene(CLOUD + BALLS[1:2], ROOM)}
+CAMERA = pt.Camera((0.3, 0.2, 3.8), (0, 0, 0), vertical_fov=1.2)
+SAMPLES = 512
+STANDARD_ERRORS = 5.4  # exceeded once in ten million
+
+
+class Minnaert(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()), "shaders")
+        shutil.copytree(SHADERS, self.folder)
+        page = (SHADERS / "MATERIALS.md").read_text(encoding="utf-8")
+        subprocess.run(["patch", "-s", "--fuzz=0", "-p2", "-d", self.folder], input=page.split("```diff\n")[1].split("```")[0], text=True,
+                       check=True)
+        self.context = self.enterContext(pt.Context(shader_dir=self.folder))
+
+    def light(self, scene, estimator):
+        """Means of halves of the picture, and their standard errors."""
+        settings = pt.RenderSettings(32, 32, max_path_length=3, estimator=estimator, sampler=pt.Sampler.RANDOM)
+        image = self.context.render(scene, CAMERA, settings, SAMPLES)
+        self.assertEqual(image.stats.rejected_samples, 0)
+        means, errors = (each.reshape(2, -1) for each in (image.radiance, image.standard_error))
+        return means.mean(axis=1), np.sqrt((errors**2).sum(axis=1)) / means.shape[1]
+
+    def difference(self, scene, estimator, expected):
+        """In bounds, and the bound in shares of the light."""
+        (mean, error), (right, error_of_right) = self.light(scene, estimator), expected
+        bound = STANDARD_ERRORS * np.sqrt(3) * np.hypot(error, error_of_right)  # colors of a pixel may deviate together
+        return (abs(mean - right) / bound).max(), (bound / right).max()
+
+    def test_estimators_agree_on_every_kind_of_scene(self):
+        for name, scene in SCENES.items():
+            expected = self.light(scene, pt.Estimator.UNIFORM)
+            for estimator in (pt.Estimator.COSINE, pt.Estimator.BSDF, pt.Estimator.LIGHT, pt.Estimator.MIS):
+                with self.subTest(scene=name, estimator=estimator.name):
+                    difference, share = self.difference(scene, estimator, expected)
+                    self.assertLessEqual(difference, 1)
+                    self.assertLess(share, 0.05)
+
+    def test_a_wrong_density_stands_out(self):
+        path = self.folder / "phong.glsl"
+        text = path.read_text()
+        self.assertEqual(text.count("(1.5 / PI)"), 1)
+        expected = self.light(SCENES["a sky alone"], pt.Estimator.UNIFORM)
+        path.write_text(text.replace("(1.5 / PI)", "(1.35 / PI)"))
+        self.context.reload_shaders()
+        self.assertGreater(self.difference(SCENES["a sky alone"], pt.Estimator.BSDF, expected)[0], 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
