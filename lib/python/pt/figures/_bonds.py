@@ -12,7 +12,8 @@ from pt.figures._options import Options
 from pt.figures._particles import Bonds, Particles
 from pt.figures._rods import Rods
 from pt.figures._select import chosen
-from pt.figures._templates import agreeing, free_ions, known_residues
+from pt.figures._templates import agreeing, free_ions, known_residues, polymers_of
+from pt.figures._tubes import trace_of
 
 # O'Boyle et al. 2011, "Open Babel: An open chemical toolbox", Journal of Cheminformatics 3:33: atoms are bonded if their
 # distance is at most the sum of their covalent radii and the tolerance. Atoms closer than the least distance are
@@ -20,7 +21,7 @@ from pt.figures._templates import agreeing, free_ions, known_residues
 TOLERANCE: Final = 0.45
 LEAST_DISTANCE: Final = 0.4
 BALL_SHARE: Final = 0.5  # radius of a ball with sticks, relative to its full radius; by taste
-STICK_SHARES: Final = {"space-filling": 0.07, "ball-and-stick": 0.07, "sticks": 0.14}
+STICK_SHARES: Final = {"space-filling": 0.07, "ball-and-stick": 0.07, "sticks": 0.14, "tube": 0.07}
 
 
 def bonds_of(particles: Particles, options: Options, radii: Array, notes: list[str]) -> Rods:
@@ -154,13 +155,17 @@ def models_of(particles: Particles, options: Options) -> Array:
         models = np.repeat(models, len(particles))
         for selection, model in options.picked_models.items():
             models[chosen(particles, selection, "model")] = model
+    if (models == "tube").any():
+        models = np.where((models == "tube") & ~polymers_of(particles), "ball-and-stick", models)
+        if (models == "tube").any() and not trace_of(particles).any():
+            raise ValueError(f"model = 'tube': {particles.name} has no atoms CA of amino acids or P of nucleotides")
     return models
 
 
 def among_sticks(bonds: Rods, models: Array) -> Rods:
     if len(models) == 1:
         return bonds
-    has_sticks = models != "space-filling"
+    has_sticks = np.isin(models, ("ball-and-stick", "sticks"))
     kept = has_sticks[bonds.atoms] & has_sticks[bonds.others]
     return replace(bonds, atoms=bonds.atoms[kept], others=bonds.others[kept], ways=bonds.ways[kept])
 

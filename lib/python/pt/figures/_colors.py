@@ -16,8 +16,8 @@ from pt.figures._elements import categories
 from pt.figures._errors import module
 from pt.figures._options import Options
 from pt.figures._particles import Particles
-from pt.figures._residues import is_polymer
 from pt.figures._select import chosen, column, rules
+from pt.figures._templates import polymers_of
 
 Bytes: TypeAlias = npt.NDArray[np.uint8]
 RGB: TypeAlias = tuple[int, ...]
@@ -139,9 +139,7 @@ def _tinted(particles: Particles, name: str, given: Options, notes: list[str]) -
     own = elements.COLORS[numbers].astype(np.float64)
     tinted = np.where(np.isin(numbers, (1, 6))[:, None], pale, (1.0 - TINT) * pale + TINT * own)
     if "resname" in particles.columns:
-        words, codes = np.unique(particles.columns["resname"].astype(str), return_inverse=True)
-        others = ~np.array([is_polymer(word.upper()) for word in words], bool)[codes]
-        tinted[others] = own[others]
+        tinted[~polymers_of(particles)] = own[~polymers_of(particles)]
     if isinstance(legend, Swatches):
         legend = Swatches(legend.title, legend.names, np.uint8(255.5 + PALE * (legend.colors - 255.0)))
     return np.uint8(tinted + 0.5), legend

@@ -41,6 +41,7 @@ from pt.figures._select import chosen
 from pt.figures._stage import EDGES, SURROUND_BRIGHTNESS
 from pt.figures._styles import completed, groups_of, styled
 from pt.figures._trails import trails_of
+from pt.figures._tubes import trace_of, tubes_of
 
 LEAST_LENGTH: Final = 1e-18
 WORDS: Final = "#222222"
@@ -115,15 +116,23 @@ def prepare(particles: Particles, options: Options, scale: float | None = None, 
         settled.update({"vector_scale": vector_scale} if vector_scale else {})
     if past:
         rods.append(trails_of(particles, past, radii))
+    tubes = None
     if options.bond_rule is not None:
-        bonds = bonds_of(particles, options, radii, notes)
-        rods.append(bonds)
-        settled.update({"bond_radius": bonds.radius} if len(bonds.atoms) else {})
         models = models_of(particles, options)
-        rods[-1] = bonds = among_sticks(bonds, models)
-        radii = ball_radii(radii, models, bonds.radius, options.radius is not None)
-        rods[-1] = meeting_in_sight(bonds, radii)
-    shown = _shown(particles, options, radii, notes)
+        stick = 0.0
+        if not (models == "tube").all():
+            bonds = among_sticks(bonds_of(particles, options, radii, notes), models)
+            settled.update({"bond_radius": bonds.radius} if len(bonds.atoms) else {})
+            stick = bonds.radius
+            radii = ball_radii(radii, models, stick, options.radius is not None)
+            rods.append(meeting_in_sight(bonds, radii))
+        tubes = models == "tube"
+        if tubes.any():
+            trace = trace_of(particles) & tubes
+            rods.append(tubes_of(particles, trace, options.bond_radius))
+            radii = np.where(trace, radii.dtype.type(rods[-1].radius), radii)
+            tubes = tubes & ~trace
+    shown = _shown(particles, options, radii, notes, tubes if tubes is not None and tubes.any() else None)
     positions = particles.positions
     if shown is not None:
         positions = positions[shown]
@@ -140,11 +149,14 @@ def prepare(particles: Particles, options: Options, scale: float | None = None, 
                  None if opacities is None else np.broadcast_to(opacities, len(centers)), groups)
 
 
-def _shown(particles: Particles, options: Options, radii: Array, notes: list[str]) -> Array | None:
+def _shown(particles: Particles, options: Options, radii: Array, notes: list[str], hidden: Array | None) -> Array | None:
+    """`hidden` are atoms whose place a tube takes."""
     conditions = [options.where] if isinstance(options.where, str) else options.where
     shown: Array | None = np.logical_and.reduce([chosen(particles, each) for each in conditions]) if conditions else None
     if shown is not None and not shown.any():
         raise ValueError(f"{particles.name} has no particles for which where = {', '.join(conditions)} holds")
+    if hidden is not None:
+        shown = ~np.broadcast_to(hidden, len(particles)) if shown is None else shown & ~hidden
     _check(particles.name, radii, shown)
     if options.frame_all or options.camera:
         return shown

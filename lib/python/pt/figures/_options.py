@@ -26,7 +26,7 @@ Columns: TypeAlias = "Mapping[str, str] | str | None"
 VIEWS: Final = ("three-quarter", "front", "back", "left", "right", "top", "bottom")
 STYLES: Final = ("matte", "glossy", "ambient-occlusion", "molecule", "protein", "crystal", "particles", "point-cloud", "galaxy",
                  "soft", "illustrative", "cover")
-MODELS: Final = ("auto", "space-filling", "ball-and-stick", "sticks")
+MODELS: Final = ("auto", "space-filling", "ball-and-stick", "sticks", "tube")
 SAMPLES: Final = 128
 DRAFT_SAMPLES: Final = 8
 MOST_SAMPLES: Final = 65536
@@ -93,8 +93,8 @@ class Options:
     title: str | None = _particles(None, "WORDS", "title of the legend, with the unit; matplotlib's TeX. Default: the column")
     colorbar: bool = _particles(False, "", "draws the legend at the right of the picture")
     radius: Radius = _particles(
-        None, "R|COLUMN|...", "a number in the units of the data; a column; covalent or van-der-waals (for elements, in "
-        "angstroms); radii of types and selections, \"O=0.7,H=0.3\", \"covalent,chain A=2\"; a factor with any of them, \"0.5*diameter\". In Python also {\"O\": 0.7} "
+        None, "R|COLUMN|...", "a number in the units of the data; a column; covalent, van-der-waals or solvent-accessible, which "
+        "is larger by 1.4 (for elements, in angstroms); radii of types and selections, \"O=0.7,H=0.3\", \"covalent,chain A=2\"; a factor with any of them, \"0.5*diameter\". In Python also {\"O\": 0.7} "
         "and arrays. Default: the data's radii; else covalent radii if distances are in angstroms, up to 3 times as large for "
         "neighbours that are not bonded; else half of the distance of most neighbours")
 
@@ -106,11 +106,13 @@ class Options:
         "(Cordero 2008) and 0.45 angstroms, as in Open Babel; a number bonds all within this distance. In Python also pairs of "
         "indices, shape (k, 2). Default: no bonds")
     wall_bonds: str = _particles("halves", "", "bonds through the walls of a periodic cell", choices=("halves", "none"))
-    model: str | Mapping[str, str] = _particles("auto", "MODEL", "auto, space-filling, ball-and-stick or sticks, also of selections, "
+    model: str | Mapping[str, str] = _particles("auto", "MODEL", "auto, space-filling, ball-and-stick, sticks or tube, also of selections, "
                             "\"space-filling,resname XK2=sticks\". ball-and-stick halves the radii unless radius is given; sticks (licorice) has no balls. "
-                            "Both have bonds. auto is ball-and-stick with bonds, otherwise space-filling")
+                            "Both have bonds. tube goes through CA of amino acids and P of nucleotides, by chain; other residues are balls "
+                            "and sticks. auto is ball-and-stick with bonds, otherwise space-filling")
     bond_radius: float | None = _particles(
-        None, "R", "radius of bonds in the units of the data. Default: 0.07 of the median length of bonds, for sticks 0.14",
+        None, "R", "radius of bonds in the units of the data, or of tubes. Default: 0.07 of the median length of bonds, for "
+        "sticks 0.14, and 0.14 of the distance between a tube's atoms",
         read=float, rule=(lambda radius: 0.0 < radius < math.inf, "> 0 and finite"))
     vectors: Vectors = _particles(None, "vx,vy,vz", "columns, or v or velocity as in color, in Python also an array of shape (n, "
                                   "3). Each vector is a capsule from the particle's center, in its color")

@@ -16,6 +16,7 @@ from pt.figures._select import chosen, column, rules
 from pt.figures._spread import reaches_of, usual_reach
 
 PROBES: Final = 1000
+PROBE: Final = 1.4  # angstroms: radius of a water molecule (Lee and Richards 1971)
 IN_CELL: Final = 8
 MOST_PAIRS: Final = 4_000_000
 TABLE_BITS: Final = 20
@@ -67,10 +68,11 @@ def _unscaled(particles: Particles, radius: Radius, notes: list[str]) -> Array:
     if radius is None:
         return _automatic(particles, notes)
     if isinstance(radius, str):
-        if radius in ("covalent", "van-der-waals"):
+        if radius in ("covalent", "van-der-waals", "solvent-accessible"):
             if particles.elements is None:
                 raise ValueError(f"radius = {radius!r}: {particles.name} has no elements")
-            return _of_elements(particles, particles.elements, radius, notes)
+            each = _of_elements(particles, particles.elements, radius, notes)
+            return each + each.dtype.type(PROBE) if radius == "solvent-accessible" else each
         radius = column(particles, radius)
     if isinstance(radius, Mapping):
         return _of_types(particles, radius)

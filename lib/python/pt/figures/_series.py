@@ -61,7 +61,7 @@ def _rule(particles: Particles, drawn: Drawn, options: Options) -> Radius:
     factor = covalent_factor(particles)
     if factor is None:
         return float(drawn.radii[0]) / drawn.scale
-    return f"{(BALL_SHARE if options.drawn_model == 'ball-and-stick' else 1.0) * factor!r}*covalent"
+    return f"{(BALL_SHARE if options.drawn_model in ('ball-and-stick', 'tube') else 1.0) * factor!r}*covalent"
 
 
 def turntable(particles: Particles, count: int, options: Options) -> Iterator[Staged]:

@@ -12,7 +12,8 @@ from pt.figures._colors import components
 from pt.figures._options import Options
 from pt.figures._particles import Particles
 from pt.figures._radii import covalent_factor
-from pt.figures._residues import is_polymer
+from pt.figures._templates import polymers_of
+from pt.figures._tubes import trace_of
 
 MOST_ATOMS: Final = 500  # of a molecule or crystal drawn with bonds; by taste
 LEAST_POLYMER: Final = 20  # atoms
@@ -31,20 +32,27 @@ VALUES: Final[dict[str, dict[str, Any]]] = {
     "illustrative": {"outlines": True, "box": "none"},
     "cover": {"floor": True},
 }
+LOOKS: Final = ("soft", "illustrative", "cover")  # for every kind of data
 WORDS: Final = {"molecule": "balls and sticks", "protein": "chains by color, no water, no cell", "crystal": "bonds, cell and all corner atoms",
                 "point-cloud": "soft light, far points paler", "galaxy": "a dark background"}
 
 
 def styled(particles: Particles, options: Options, notes: list[str]) -> Options:
     """Options without style auto, and with the values of their style."""
-    style = options.style
-    if style == "auto":
-        style = kind_of(particles, options)
-        if style in WORDS:
-            notes.append(f"style is {style}: {WORDS[style]}; --style particles (style='particles') is the plain one")
-    values = dict(VALUES.get(style, {}))
+    style, kind = options.style, options.style
+    if style in ("auto", *LOOKS):
+        kind = kind_of(particles, options)
+        style = kind if style == "auto" else style
+        if kind in WORDS:
+            notes.append(f"style is {style}{f' of a {kind}' * (style != kind)}: {WORDS[kind]}; --style particles (style='particles') is "
+                         "the plain one")
+    values = {**VALUES.get(kind, {}), **VALUES.get(style, {})}
     if particles.elements is None:
         values = {name: value for name, value in values.items() if name not in ("bonds", "radius")}
+    if kind == "protein" and trace_of(particles)[polymers_of(particles)].all():
+        values["model"] = "tube"
+    if options.drawn_model != "space-filling":
+        values.pop("radius", None)
     if "chain" not in particles.columns or "resname" not in particles.columns:
         values = {name: value for name, value in values.items() if name not in ("color", "where")}
     if values.get("bonds") and options.drawn_model == "space-filling" and options.model != "auto":
@@ -61,10 +69,8 @@ def _is(value: Any, default: Any) -> bool:
 def kind_of(particles: Particles, options: Options) -> str:
     count, cell, elements = len(particles), particles.cell, particles.elements
     if elements is not None:
-        if "resname" in particles.columns:
-            names, counts = np.unique(particles.columns["resname"].astype(str), return_counts=True)
-            if sum(number for name, number in zip(names, counts) if is_polymer(name.upper())) >= LEAST_POLYMER:
-                return "protein"
+        if np.count_nonzero(polymers_of(particles)) >= LEAST_POLYMER:
+            return "protein"
         is_small = count <= MOST_ATOMS and bool(elements.all()) and options.radius is None and particles.radii is None
         if is_small and cell is not None and cell.periodic.all():
             return "crystal" if abs(np.linalg.det(cell.vectors)) < SPACE * count else "particles"

@@ -29,6 +29,12 @@ def known_residues(particles: Particles) -> Array:
     return _of_names(particles, lambda name: name.upper() in WATERS or is_polymer(name.upper()))
 
 
+def polymers_of(particles: Particles) -> Array:
+    if "resname" not in particles.columns:
+        return np.zeros(len(particles), bool)
+    return _of_names(particles, lambda name: is_polymer(name.upper()))
+
+
 def free_ions(particles: Particles) -> Array:
     residues = residues_of(particles)
     result: Array = _of_names(particles, is_free_ion) & (np.bincount(residues)[residues] == 1)
