@@ -27,7 +27,6 @@ public:
 
     double log_uniform(double low, double high) { return low * std::pow(high / low, word() * 0x1p-32); }
 
-    // One direction in eight is an axis, or differs from an axis by about 2^-k.
     glm::vec3 direction() {
         const std::uint32_t choice = word();
         glm::dvec3 vector(normal(), normal(), normal());

@@ -32,7 +32,7 @@ protected:
         struct Once {
             const std::function<void()> &action;
             bool done = false;
-            static std::int32_t progress(void *user, double /*fraction*/) {
+            static std::int32_t progress(void *user, double) {
                 auto *once = static_cast<Once *>(user);
                 if (!once->done) {
                     once->done = true;
@@ -62,7 +62,7 @@ TEST_F(InUseTest, CallsFromACallbackOfASceneAreRefused) {
     struct Inside {
         pt_context *context;
         Outcomes outcomes = {};
-        static std::int32_t progress(void *user, double /*fraction*/) {
+        static std::int32_t progress(void *user, double) {
             auto *const inside = static_cast<Inside *>(user);
             inside->outcomes = outcomes_of_every_call(inside->context);
             return 0;

@@ -177,7 +177,7 @@ TEST_F(ReloadTest, TheAccuracyIsThatOfTheFolder) {
     EXPECT_GT(worst_of_sqrt(), 1e6);
 }
 
-int32_t stop(void * /*user*/, double /*fraction*/) {
+int32_t stop(void *, double) {
     return 1;
 }
 

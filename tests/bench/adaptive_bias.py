@@ -2,9 +2,8 @@
 
     PT_LIBRARY=build/lib/libpt.so python3 tests/bench/adaptive_bias.py SCENE TARGET [SEEDS]   # caustic 0.1 96
 
-SCENE is one of cli/scenes or calibration_scenes.py. Each picture is compared with a picture of the same seed that has many more samples
-and is not adaptive. Both have the same first samples, which reduces noise.
-
+SCENE is one of cli/scenes or calibration_scenes.py. Each picture is compared with a picture of the same seed that has
+many more samples and is not adaptive.
 """
 
 import math

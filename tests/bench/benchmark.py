@@ -8,8 +8,6 @@ table, and draws error against time (benchmark.png, with matplotlib).
 Mitsuba's variant llvm_ad_rgb (CPU) needs LLVM's shared library, and DRJIT_LIBLLVM_PATH names it. In Debian this is
 libllvm19, since libllvm15 fails on processors with AVX-512. The variant cuda_ad_rgb runs on a GPU.
 
-Each round measures all options in turn.
-
 cost     median CPU seconds of sampling (GPU: wall seconds)
 error    mean relMSE (README.md) against references (references.py)
 target   an error of the default at one of its two largest sample counts

@@ -1,4 +1,4 @@
-"""Compares means of blocks of pixels. The noise is measured between independent runs."""
+"""The noise is measured between independent runs."""
 
 import math
 import statistics

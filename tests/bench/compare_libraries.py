@@ -1,4 +1,4 @@
-"""Compares the costs of equal errors between two builds of libpt, in the scenes of cli/scenes.
+"""Compares the costs of equal errors between builds of libpt in the scenes of cli/scenes.
 
     python3 tests/bench/compare_libraries.py --library old=OLD/libpt.so --library new=build/lib/libpt.so
 

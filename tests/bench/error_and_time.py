@@ -3,7 +3,7 @@
     PT_LIBRARY=build/lib/libpt.so python3 tests/bench/error_and_time.py cli/scenes/coursework.json --size 64x32 \\
         --samplers random,sobol --spp 4,16 --rounds 1 --json bench.json
 
-Each round renders all combinations in turn, with another seed.
+Each round has another seed.
 
 seconds, cpu s  median wall and CPU seconds of sampling alone
 mse, rel_mse    mean of (x - r)^2 and of (x - r)^2 / (r^2 + 0.01) against the reference r, over the rounds

@@ -2,7 +2,7 @@
 
     python3 tests/bench/latency.py --library old=OLD/libpt.so --library new=build/lib/libpt.so --sizes 1024x512
 
-Libraries are measured in one process, in turn. Figures are medians. The camera moves before each new picture.
+Figures are medians. The camera moves before each new picture.
 
 64 samples      pt_accumulate on a film with samples
 readback        pt_readback of the radiance into memory that was written before

@@ -1,8 +1,6 @@
 """Makes random scenes of 25 kinds.
 
     python3 tests/bench/random_scenes.py FOLDER [--first-seed N]   # writes a hundred scene files
-
-The same kind and seed give the same scene.
 """
 
 import argparse

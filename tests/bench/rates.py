@@ -1,6 +1,6 @@
 """Measures how fast pt takes samples, and how fast it starts.
 
-Each round runs all cases in turn. Figures are medians.
+Figures are medians.
 
 samples/s       from the difference of two sample counts, per wall second of sampling and per CPU second (not on a GPU)
 first, cold     seconds to create the context and take the first sample, including the compilation of kernels

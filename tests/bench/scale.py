@@ -4,8 +4,8 @@
         --library pt=build/lib/libpt.so --mitsuba mitsuba/bin/python --counts 10,1e3,1e5
 
 --cloud lamps has lamps whose brightness spans four powers of ten, with eight balls below each lamp. --cloud dark-lamps has
-balls in place of the lamps, so the difference is the cost of choosing lamps. benchmark.py describes Mitsuba. Each round
-measures all programs in turn. Figures are medians.
+balls in place of the lamps, so the difference is the cost of choosing lamps. benchmark.py describes Mitsuba. Figures are
+medians.
 
 scene           seconds of pt_set_scene, or of building Mitsuba's scene
 bytes           device memory per sphere, from pt_stats.device_bytes with and without the cloud

@@ -1,5 +1,4 @@
-"""Renders scene files with libpt (PT_LIBRARY, or the system's). Does not use the package's objects, so that several
-libraries can be measured."""
+"""Does not use the package's objects, so that several libraries can be measured."""
 
 import array
 import ctypes

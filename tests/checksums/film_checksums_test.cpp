@@ -1,5 +1,4 @@
-// Compares films of the shipped scenes with tests/data/film_checksums.txt. Other checksums are right only if radiance
-// was meant to change.
+// tests/data/film_checksums.txt may change only if radiance was meant to change.
 #include "cli/scene/scene.h"
 #include "lib/base/digest.h"
 #include "tests/support/context_calls.h"

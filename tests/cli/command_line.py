@@ -1,5 +1,4 @@
-"""Runs the program in an empty folder. Most cases use fake_library.cpp, which needs no device. Classes named
-RealDevice use the real libpt."""
+"""Most cases use fake_library.cpp, which needs no device. Classes named RealDevice use the real libpt."""
 
 import os
 import pathlib

@@ -1,5 +1,3 @@
-"""Tests the course of shaders/COURSEWORK.md."""
-
 import os
 import subprocess
 

@@ -22,7 +22,6 @@ def plain(text, build, output):
 
 
 def same_sources(source):
-    """Compares the generated shaders and the unity file."""
     generated = [path.relative_to(own) for path in (own / "lib/shaders").glob("*.h")]
     return generated and all(
         (other / name).exists() and (other / name).read_text().replace(str(other), str(own)) == (own / name).read_text()

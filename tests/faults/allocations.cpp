@@ -78,10 +78,10 @@ void *operator new(std::size_t size) {
 void *operator new[](std::size_t size) {
     return allocate_or_throw(size);
 }
-void *operator new(std::size_t size, const std::nothrow_t & /*tag*/) noexcept {
+void *operator new(std::size_t size, const std::nothrow_t &) noexcept {
     return allocate(size);
 }
-void *operator new[](std::size_t size, const std::nothrow_t & /*tag*/) noexcept {
+void *operator new[](std::size_t size, const std::nothrow_t &) noexcept {
     return allocate(size);
 }
 void operator delete(void *memory) noexcept {
@@ -90,16 +90,16 @@ void operator delete(void *memory) noexcept {
 void operator delete[](void *memory) noexcept {
     release(memory);
 }
-void operator delete(void *memory, std::size_t /*size*/) noexcept {
+void operator delete(void *memory, std::size_t) noexcept {
     release(memory);
 }
-void operator delete[](void *memory, std::size_t /*size*/) noexcept {
+void operator delete[](void *memory, std::size_t) noexcept {
     release(memory);
 }
-void operator delete(void *memory, const std::nothrow_t & /*tag*/) noexcept {
+void operator delete(void *memory, const std::nothrow_t &) noexcept {
     release(memory);
 }
-void operator delete[](void *memory, const std::nothrow_t & /*tag*/) noexcept {
+void operator delete[](void *memory, const std::nothrow_t &) noexcept {
     release(memory);
 }
 

@@ -51,7 +51,7 @@ pt_render render() {
     return render;
 }
 
-int32_t go_on(void * /*user*/, double /*fraction*/) {
+int32_t go_on(void *, double) {
     return 0;
 }
 
@@ -65,11 +65,11 @@ pt_result start_and_poll(pt_context *context, const pt_accumulate_info *info) {
     return result;
 }
 
-uint64_t no_kernels(void * /*user*/, const char * /*key*/, void * /*data*/, uint64_t /*size_bytes*/) {
+uint64_t no_kernels(void *, const char *, void *, uint64_t) {
     return 0;
 }
 
-void forget_kernels(void * /*user*/, const char * /*key*/, const void * /*data*/, uint64_t /*size_bytes*/) {}
+void forget_kernels(void *, const char *, const void *, uint64_t) {}
 
 } // namespace
 

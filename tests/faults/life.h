@@ -1,4 +1,4 @@
-// The calls of a context's life. After a fault, each call is checked against pt.h and repeated.
+// After a fault, each call is checked against pt.h and repeated.
 #pragma once
 
 #include <pt/pt.h>

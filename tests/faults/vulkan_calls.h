@@ -33,7 +33,7 @@ void limit_memory(std::uint64_t bytes);
 // Counts objects by the function that made them. Descriptor sets and command buffers are left out.
 std::map<std::string, long> live_objects();
 
-// Leaves the present objects out of the count. They stay until the process ends.
+// Leaves the present objects out of the count.
 void forget_objects();
 
 } // namespace faults

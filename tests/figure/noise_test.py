@@ -72,7 +72,6 @@ class Rule(unittest.TestCase):
             self.assertTrue((sampled(spread, covered)[0].sample_count == FIRST_SAMPLES).all())
 
     def test_a_dim_neighbourhood_is_not_left_noisy(self):
-        """The noisy tiles are a thousandth of all tiles, so they hardly change the mean."""
         spread = np.where(self.covered, 0.01, 0.0)
         spread[40:48, 40:48] = 0.5
         self.assertGreater(sampled(spread, self.covered)[0].sample_count[44, 44], 4 * FIRST_SAMPLES)

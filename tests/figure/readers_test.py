@@ -25,7 +25,7 @@ HEAD = "ITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS "
 ATOMS = "ITEM: ATOMS id xs ys zs\n1 0.5 0.25 0.125\n"
 
 DAMAGES = 60
-DAMAGED = {  # Each row says whether a cut file is noticed.
+DAMAGED = {  # whether a cut file is noticed
     "cloud.csv": False, "cloud.csv.gz": True, "cloud.tsv": False, "cloud.xyz": True, "cloud.extxyz": True, "rows.npy": True,
     "records.npy": True, "stored.npz": True, "deflated.npz": True, "little.ply": True, "lists.ply": True,
     "text.ply": True, "text_lists.ply": True, "melt_plain.dump": True, "tilted.dump": True}

@@ -1,4 +1,4 @@
-// Compares tiles' errors with shaders/pixel_error.h, bit for bit.
+// Compares with shaders/pixel_error.h, bit for bit.
 #include "lib/film/tile_errors.h"
 #include "shaders/pixel_error.h"
 

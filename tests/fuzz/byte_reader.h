@@ -1,4 +1,4 @@
-// Reads values from the fuzzer's bytes. After the last byte all bytes are 0, so each prefix of an input is an input.
+// After the last byte all bytes are 0, so each prefix of an input is an input.
 #pragma once
 
 #include <algorithm>

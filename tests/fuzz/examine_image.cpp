@@ -1,5 +1,4 @@
-// Renders images on a device. The images must be finite, without rejected samples, and independent of the split over
-// calls.
+// Images must be finite, without rejected samples, and independent of the split over calls.
 #include "tests/fuzz/examine.h"
 
 #include "lib/base/error.h"

@@ -1,4 +1,4 @@
-// Adds films to a context. Inputs start after the lines of the identity, because these depend on the device.
+// Inputs start after the lines of the identity, because these depend on the device.
 #include "tests/fuzz/film_input.h"
 #include "tests/fuzz/on_device.h"
 #include "tests/support/scene_of.h"

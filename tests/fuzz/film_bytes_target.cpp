@@ -1,4 +1,4 @@
-// Reads films from bytes. An accepted film must be written as the same bytes.
+// An accepted film must be written as the same bytes.
 #include "tests/fuzz/film_input.h"
 #include "tests/fuzz/require.h"
 

@@ -1,4 +1,4 @@
-// Reads NPY files from bytes. An accepted file must have all of its numbers.
+// An accepted file must have all of its numbers.
 #include "tests/fuzz/mutation.h"
 #include "tests/fuzz/require.h"
 

@@ -1,4 +1,3 @@
-// One context for all inputs.
 #pragma once
 
 #include "tests/fuzz/require.h"

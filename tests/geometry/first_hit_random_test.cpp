@@ -1,5 +1,4 @@
-// Compares first hits in random scenes, in trees and lists, with long double. PT_TEST_MANY renders 600 scenes.
-// PT_TEST_FIRST_SCENE is the first scene's number.
+// PT_TEST_MANY renders 600 scenes. PT_TEST_FIRST_SCENE is the first scene's number.
 #include "lib/view/gpu_scene.h"
 #include "tests/geometry/first_hit_scenes.h"
 #include "tests/geometry/tree_fixture.h"

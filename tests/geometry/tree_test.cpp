@@ -1,4 +1,4 @@
-// Compares walks through a tree with tests of every sphere. PT_TEST_TREE_SCENES sets the number of scenes.
+// PT_TEST_TREE_SCENES sets the number of scenes.
 #include "tests/geometry/tree_scenes.h"
 #include "tests/kernel/kernel_render.h"
 #include "tests/support/checked_scene_of.h"

@@ -1,4 +1,4 @@
-/* Renders an image with pt.h in strict C99. The exit status is 0 on success. */
+/* The exit status is 0 on success. */
 #include <pt/accuracy.h>
 #include <pt/pt.h>
 

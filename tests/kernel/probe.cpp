@@ -11,7 +11,7 @@
 
 namespace {
 
-void on_message(void * /*user*/, int32_t level, const char *line) {
+void on_message(void *, int32_t level, const char *line) {
     if (level <= PT_LOG_WARNING)
         ADD_FAILURE() << "the Vulkan layer says: " << line;
 }

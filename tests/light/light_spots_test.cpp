@@ -1,4 +1,3 @@
-// Spots are planes close to a lamp, and surfaces that mirror a lamp.
 #include "lib/view/gpu_scene.h"
 #include "lib/view/light_spots.h"
 

@@ -1,5 +1,4 @@
-// Compares random scenes with a path tracer in double. PT_TEST_SCENES sets the number of scenes. By default each kind
-// of scene has one in a tree and one in a list.
+// PT_TEST_SCENES sets the number of scenes. By default each kind of scene has one in a tree and one in a list.
 #include "tests/support/batch_fixture.h"
 #include "tests/support/light_in_double.h"
 #include "tests/support/numbers_of.h"

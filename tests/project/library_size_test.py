@@ -1,4 +1,4 @@
-"""Checks that the stripped shared library stays small. Arguments: the strip program, the library."""
+"""Arguments: the strip program, the shared library."""
 
 import os
 import subprocess

@@ -1,4 +1,4 @@
-"""Tests the commands and the exit status of cmake/quickstart.sh, with stand-ins for its programs."""
+"""Runs cmake/quickstart.sh with stand-ins for its programs."""
 
 import os
 import re

@@ -1,4 +1,4 @@
-"""Checks that the headers document everything: reference_pages_test.py DOXYGEN DOXYFILE HEADERS.
+"""reference_pages_test.py DOXYGEN DOXYFILE HEADERS.
 
 Doxygen's warnings are errors. Each enumerator needs a comment, and each function must state its threads. HEADERS is a folder, and
 `headers` maps names to texts.

@@ -1,5 +1,4 @@
-"""Tests the material of shaders/MATERIALS.md on kinds of scenes: all estimators must show the light that uniform directions find,
-which read no density of the model."""
+"""Compares estimators with uniform directions, which need no density of the material of shaders/MATERIALS.md."""
 
 import dataclasses
 import pathlib
@@ -38,7 +37,7 @@ class Minnaert(unittest.TestCase):
         self.context = self.enterContext(pt.Context(shader_dir=self.folder))
 
     def light(self, scene, estimator):
-        """Means of halves of the picture, and their standard errors."""
+        """Returns the means of the picture's halves, and their standard errors."""
         settings = pt.RenderSettings(32, 32, max_path_length=3, estimator=estimator, sampler=pt.Sampler.RANDOM)
         image = self.context.render(scene, CAMERA, settings, SAMPLES)
         self.assertEqual(image.stats.rejected_samples, 0)
@@ -46,7 +45,7 @@ class Minnaert(unittest.TestCase):
         return means.mean(axis=1), np.sqrt((errors**2).sum(axis=1)) / means.shape[1]
 
     def difference(self, scene, estimator, expected):
-        """In bounds, and the bound in shares of the light."""
+        """Returns the largest difference in units of the bound, and the bound relative to the light."""
         (mean, error), (right, error_of_right) = self.light(scene, estimator), expected
         bound = STANDARD_ERRORS * np.sqrt(3) * np.hypot(error, error_of_right)  # colors of a pixel may deviate together
         return (abs(mean - right) / bound).max(), (bound / right).max()

@@ -1,5 +1,5 @@
-"""Tests the page of pt view in headless Chromium. Started by hand: PYTHONPATH=lib/python PT_LIBRARY=build/lib/libpt.so.0.4 python3
-tests/python/view_browser_test.py build/bin/pt [FOLDER for screenshots]"""
+"""Started by hand: PYTHONPATH=lib/python PT_LIBRARY=build/lib/libpt.so.0.4 python3 tests/python/view_browser_test.py
+build/bin/pt [FOLDER for screenshots]"""
 
 import json
 import os

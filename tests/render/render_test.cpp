@@ -1,4 +1,4 @@
-// Compares the coursework scene with other renderers' images (tests/reference/README.md).
+// The images of other renderers are described in tests/reference/README.md.
 #include "tests/render/reference_image.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"

@@ -1,4 +1,4 @@
-// A plain path tracer in double that shares no code with the library.
+// Shares no code with the library.
 #pragma once
 
 #include <pt/pt.h>

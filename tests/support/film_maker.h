@@ -115,7 +115,6 @@ inline Bytes film_of(const pt::FilmIdentity &identity, const std::vector<pt::Rec
     return bytes;
 }
 
-// Joins equal pixels of a row into runs, then equal runs of successive rows.
 inline std::vector<pt::Rectangle> tiles_of(const Samples &samples) {
     std::vector<pt::Rectangle> tiles;
     const auto at = [&](std::int64_t row, std::int64_t column) -> const std::set<std::uint32_t> * {

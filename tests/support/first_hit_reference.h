@@ -1,4 +1,3 @@
-// First hits by independent formulas in long double, with the errors of float32.
 #pragma once
 
 #include "lib/view/seen_scene.h"

@@ -1,4 +1,4 @@
-// Tests contexts in two threads, and cancellation from another thread. The preset `thread` adds ThreadSanitizer.
+// The preset `thread` adds ThreadSanitizer.
 #include "tests/support/context_calls.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/support/image_target.h"
@@ -25,7 +25,7 @@ struct Progress {
     std::atomic<int> calls{0};
     int *unguarded = nullptr;
 
-    static int32_t report(void *user, double /*fraction*/) {
+    static int32_t report(void *user, double) {
         auto *progress = static_cast<Progress *>(user);
         ++progress->calls;
         if (progress->unguarded)

@@ -1,4 +1,3 @@
-// A program's own Vulkan, with the validation layer.
 #pragma once
 
 #include "lib/vulkan/device_choice.h"
@@ -26,8 +25,7 @@ public:
     }
 
     template <typename Severity, typename Types, typename Data> // types of the C header or of newer Vulkan-Hpp
-    static VKAPI_ATTR VkBool32 VKAPI_CALL receive(Severity /*severity*/, Types /*types*/, const Data *data,
-                                                  void *user) {
+    static VKAPI_ATTR VkBool32 VKAPI_CALL receive(Severity, Types, const Data *data, void *user) {
         auto *messages = static_cast<LayerMessages *>(user);
         const std::lock_guard held(messages->mutex_);
         messages->lines_.emplace_back(data->pMessage);

@@ -1,4 +1,4 @@
-// A user's C++ program with its own namespace pt. Its names are also names of the library's internals.
+// A user's namespace pt has names of the library's internals.
 #include <pt/pt.h>
 
 #include <iostream>
