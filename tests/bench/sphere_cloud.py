@@ -1,5 +1,3 @@
-"""Clouds of random spheres over a floor with one lamp, by count and seed."""
-
 import array
 import random
 

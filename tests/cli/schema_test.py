@@ -1,5 +1,3 @@
-"""The schema and the program must accept the same scenes."""
-
 import copy
 import json
 import math

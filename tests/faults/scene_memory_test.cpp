@@ -1,4 +1,3 @@
-// Measures the host memory of pt_set_scene without the caller's arrays.
 #include "tests/faults/allocations.h"
 #include "tests/support/scene_of.h"
 

@@ -1,4 +1,4 @@
-// Tests the adaptive rule and plan without a device. A tile of variance v with n samples has the squared error v / n.
+// A tile of variance v with n samples has the squared error v / n.
 #include "lib/film/adaptive_rule.h"
 #include "lib/film/error_estimate.h"
 #include "lib/film/tile_samples.h"

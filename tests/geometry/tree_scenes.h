@@ -1,4 +1,4 @@
-// Random scenes of many spheres. Each kind is difficult for a tree in another way.
+// Each kind of scene is difficult for a tree in another way.
 #pragma once
 
 #include "lib/scene/camera.h"

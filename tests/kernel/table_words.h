@@ -1,4 +1,3 @@
-// A small scene in the layout of large ones, with a table of materials.
 #pragma once
 
 #include "lib/view/scene_features.h"

@@ -1,5 +1,3 @@
-"""Files named in comments must exist."""
-
 import pathlib
 import re
 import unittest

@@ -1,4 +1,3 @@
-// Each invocation writes one block of a branch's numbers.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
