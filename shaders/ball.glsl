@@ -78,9 +78,9 @@ bool sphere_blocks(vec3 to_centre, float radius, vec3 direction, bool at_end, fl
 // Returns the vector from a capsule's first center to the center of the ball that a ray enters first, or leaves last.
 //
 // The axis has the unit vector u and the length L. Let c = u . direction. Let p and l be the components of u and
-// to_first perpendicular to the ray, and b the component of to_first along it. The ray enters the ball at position s of
-// the axis at the distance b + s c - sqrt(r^2 - |l + s p|^2). The minimum is at s = (n - c h) / |p|, with n = -l . p /
-// |p| and h^2 = r^2 - |l + n p / |p||^2. The ray leaves the last ball at s = (n + c h) / |p|. Both distances are
+// to_first perpendicular to the ray, and b the component of to_first along it. The ray enters the ball with center s u
+// on the axis at the distance b + s c - sqrt(r^2 - |l + s p|^2). The minimum is at s = (n - c h) / |p|, with n = -l . p
+// / |p| and h^2 = r^2 - |l + n p / |p||^2. The ray leaves the last ball at s = (n + c h) / |p|. Both distances are
 // monotonic on either side of these s, so s is clamped to [0, L]. If |p| = 0, the sign of c h chooses an end.
 //
 // Rounding moves the ends perpendicular to the ray by d <= 2^-22 (|to_first| + L). This changes s by e = d / |p| and

@@ -57,7 +57,7 @@ vec4 direction_numbers(SampleKey branch, uint begin, uint count)
 }
 
 // Returns the number that decides which surfaces a vertex's ray passes (shaders/README.md, section 8). Vertex 0 is the
-// camera. The last bits choose a lattice for each pixel and each 16 samples.
+// camera.
 uint opacity_number(SampleKey branch, uint vertex)
 {
     const uint first_block = 1u << 31; // above the blocks of all paths
@@ -65,7 +65,8 @@ uint opacity_number(SampleKey branch, uint vertex)
     if (SAMPLER == SAMPLER_RANDOM)
         return sample_words(branch, block).x;
     uint number = (bitfieldReverse(branch.sample_index) + branch.shift.w + branch.seed.y) * odd_number(block);
-    return number ^ (number >> 16u & TREE_OPACITY_BITS); // the same for 16 samples
+    // The low bits choose a lattice of opacities. They stay the same for 16 samples of a pixel.
+    return number ^ (number >> 16u & TREE_OPACITY_BITS);
 }
 
 #endif

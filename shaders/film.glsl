@@ -8,7 +8,6 @@
 
 layout(set = 0, binding = BINDING_FILM) buffer Film { uint words[]; } film;
 
-// Sums of an invocation's samples.
 struct FilmPixel {
     uvec4 windows[3];
     uint accepted;

@@ -1,5 +1,5 @@
-// First hits of camera rays. Depth and object come from the ray through the pixel's center at half the shutter's time,
-// because their means are meaningless. Normal and albedo are means over pixel and shutter, because denoisers need edges
+// First hits of camera rays. Depth and object have no meaningful mean, so they come from the ray through the pixel's
+// center at half the shutter's time. Normal and albedo are means over pixel and shutter, because denoisers need edges
 // as smooth as the image's.
 #version 450
 #extension GL_GOOGLE_include_directive : require

@@ -166,7 +166,7 @@ struct TreeFrame {
     uint first_surface;
     uint first_color;
     uint first_lamp;
-    float shutter_time; // duration
+    float shutter_time;
     uint reserved[3];
 };
 PT_CONSTANT TREE_REACH = 0x20000000; // largest absolute coordinate on the grid, 2^29
@@ -236,9 +236,9 @@ struct ErrorSquares {
 
 struct TileErrors {
     ErrorSquares square;          // (x - r)^2 in film units; x is the mean of a pixel, r its limit
-    ErrorSquares relative_square; // (x - r)^2 / (r^2 + offset^2) * relative_scale^2, except pixels of the next two
-    ErrorSquares met_once;        // quotients of light that samples of only one part hit, with r from the other part
-    ErrorSquares as_lamps;        // quotients of the same light with r = x
+    ErrorSquares relative_square; // (x - r)^2 / (r^2 + offset^2) * relative_scale^2, without pixels of met_once
+    ErrorSquares met_once;        // the same, of pixels whose light only one part's samples hit; r from the other part
+    ErrorSquares as_lamps;        // as met_once with r = x
     float unseen;                 // expected square of the error from light that no sample hit
     uint met_again;               // number of values that both parts hit (pixel_error.h)
     uint unknown_pixels;          // pixels without samples in a part

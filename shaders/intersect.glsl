@@ -69,7 +69,7 @@ Hit closest_hit_and_shadow(Start start, float time, vec3 direction, ShadowRay sh
     return hit;
 }
 
-// If rounding has put the start behind a plane, the distance is negative, and at grazing angles large. It becomes 0.
+// Replaces negative distances by 0. They occur if rounding has put the start behind a plane.
 Hit ahead(Hit hit)
 {
     if (KNOWN_SIDES == 1 && PLANE_COUNT > 0u)

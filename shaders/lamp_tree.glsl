@@ -106,9 +106,9 @@ LampWalk walk_to(uint lamp)
 
 LampWalk walk_by(uint number) { return LampWalk(true, 0u, float(number >> 8u) * NUMBER_STEP, number, 1.0); }
 
-// Takes one of four children in proportion to `importance` or, if all are 0, to `others`: the last child of positive
-// importance for which the sum over earlier children is at most the random number. So rounding never chooses a child of
-// importance 0. A choice with probability p removes log2(1 / p) random bits from walk.u. A hash replaces them.
+// Takes one of four children in proportion to `importance` or, if all are 0, to `others`. This is the last child of
+// positive importance for which the sum over earlier children is at most the random number. So rounding never chooses a
+// child of importance 0. A choice with probability p removes log2(1 / p) random bits from walk.u. A hash replaces them.
 uint take_child(inout LampWalk walk, vec4 importance, vec4 others, uint given)
 {
     vec4 part = sum_of(importance) > 0.0 ? importance : others;

@@ -49,12 +49,13 @@ PT_FUNCTION Sorted with_missing_above(Sorted row)
 }
 
 struct Neighbourhood {
-    float median; // lower middle value of an even number; 0 for a lone pixel
+    float median; // lower middle value if their number is even; 0 for a lone pixel
     float largest;
 };
 
 // Rows are sorted, with missing values first. The median of k present values is the fifth of nine values if 4 - (k - 1)
-// / 2 of the missing ones count as lowest and the rest as highest: at an edge two of three, at a corner three of five.
+// / 2 missing ones count as lowest and the rest as highest. At an edge these are two of three, at a corner three of
+// five.
 PT_FUNCTION Neighbourhood neighbourhood(Sorted above, Sorted row, Sorted below, bool is_first_row, bool is_last_row,
                                         bool is_beside_edge)
 {

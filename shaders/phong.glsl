@@ -10,7 +10,7 @@ const bool SAMPLE_LOBES = ESTIMATOR != ESTIMATOR_UNIFORM && ESTIMATOR != ESTIMAT
 
 struct Material {
     vec3 diffuse;               // albedo / pi
-    vec3 specular;              // factor times (n + 2) / (2 pi)
+    vec3 specular;              // weight times (n + 2) / (2 pi)
     float glossiness;           // n
     float specular_probability; // probability that sample_direction() samples the lobe
 };

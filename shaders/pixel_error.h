@@ -49,7 +49,7 @@ PT_FUNCTION ValueSet united(ValueSet a, ValueSet b)
     return a;
 }
 
-// The largest other value may be a firefly.
+// Leaves out the largest of the other values, which may be a firefly.
 PT_FUNCTION real mean_besides_and_without_largest(ValueSet values, real value)
 {
     real largest_of_others = value < values.largest ? values.largest : values.second;
@@ -122,9 +122,9 @@ PT_FUNCTION bool is_met_again(real mean, real lesser)
 }
 
 // The light M of a neighbor may fill a fraction p of this pixel that none of N samples hit, if the pixel's mean T is
-// below M / N. An edge that cuts off a corner of height x cuts off an area proportional to x^2. So p is below a given
-// value with a probability of c times its square root. Let a^2 = (T^2 + offset_square) / M^2 and b = 1 / (N a). The
-// squared error p M^2 / N has the relative expectation
+// below M / N. An edge that cuts off a corner of height x cuts off an area proportional to x^2. So p is below q with
+// the probability c sqrt(q). Let a^2 = (T^2 + offset_square) / M^2 and b = 1 / (N a). The squared error p M^2 / N has
+// the relative expectation
 //
 // integral from 0 to 1 / N of c / (2 sqrt(p)) p / N / (a^2 + p^2) dp = c sqrt(b / N) G(sqrt(b)).
 //

@@ -15,9 +15,9 @@ struct Start {
     bool inside;
 };
 
-// Distance along a unit vector to a plane, or NO_HIT: 2 |h| / q or q / k of shaders/README.md, section 3. `level` is
-// for the ray's origin, `side` is the camera's height. With KNOWN_SIDES a ray towards the plane always hits it; the
-// distance is negative if rounding has put the origin behind the plane.
+// Distance along a unit vector to a plane, or NO_HIT: 2 |h| / q or q / k of shaders/README.md, section 3. `level`
+// belongs to the ray's origin, `side` is the camera's height above the plane. With KNOWN_SIDES a ray towards the plane
+// always hits it; the distance is negative if rounding has put the origin behind the plane.
 float plane_distance(Level level, vec3 direction, bool leaving, bool inside, float side)
 {
     float slope = dot(level.gradient, direction);
@@ -43,8 +43,8 @@ float plane_distance(Level level, vec3 direction, bool leaving, bool inside, flo
 }
 
 struct Hit {
-    float distance; // distance, or NO_HIT; negative if rounding has put the start beyond the surface
-    uint surface;   // surface, or NO_SURFACE
+    float distance; // or NO_HIT; negative if rounding has put the start beyond the surface
+    uint surface;
 };
 
 void keep_closer(inout Hit hit, float distance, uint surface)
@@ -56,7 +56,7 @@ void keep_closer(inout Hit hit, float distance, uint surface)
 
 struct ShadowRay {
     vec3 direction;
-    float distance; // 0: no lamp
+    float distance; // 0: no shadow ray
     uint lamp;      // the lamp's surface, which never blocks the ray
 };
 

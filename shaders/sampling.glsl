@@ -4,7 +4,8 @@
 
 #include "maths.glsl"
 
-// Angles about the z axis. The polar angle has its cosine and sine, because Vulkan allows acos an error of 4096 ulp.
+// Angles about the z axis. The polar angle is stored as cosine and sine, because Vulkan allows acos an error of 4096
+// ulp.
 struct SphericalAngles {
     float cos_polar;
     float sin_polar;
@@ -73,7 +74,7 @@ vec2 narrow_cos_sin(float one_minus_cos)
     return vec2(1.0 - one_minus_cos, sqrt(one_minus_cos * (2.0 - one_minus_cos)));
 }
 
-// Weight of density a > 0 against b >= 0, with exponent 2 (Veach 1997, chapter 9). After overflow it is 0.
+// Weight of density a > 0 against b >= 0, with exponent 2 (Veach 1997, chapter 9). If b / a overflows, the weight is 0.
 float power_heuristic(float a, float b)
 {
     float ratio = b / a;

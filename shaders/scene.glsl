@@ -46,9 +46,9 @@ vec4 scene_word(uint index)
     return SCENE_SOURCE == SCENE_IN_UNIFORM ? scene_uniform.words[index] : stored_word(index);
 }
 
-// Word first + index; index < count may differ between invocations. Constants have no addresses, so index is compared
-// with all possible values. A condition that is never true prevents constant folding, so that all scene sources round
-// alike.
+// Returns word first + index. index < count may differ between invocations. Constants have no addresses, so index is
+// compared with all possible values. A condition that is never true prevents constant folding, so that all scene
+// sources round alike.
 vec4 scene_word_among(uint first, uint count, uint index)
 {
     if (SCENE_SOURCE != SCENE_IN_CONSTANTS)

@@ -95,7 +95,7 @@ struct Departure {
     float lamp_choices; // 0: every lamp is sampled
 };
 
-// The caller chooses the lamp, because a branch here would be slower on GPUs.
+// The caller chooses the lamp, because a condition here would be slower on GPUs.
 Departure depart(inout Path path, Vertex vertex, Material material, LampLight lamp, float lamp_choices, vec4 numbers,
                  float directions)
 {
@@ -206,7 +206,8 @@ void leave(inout Path path, Vertex vertex, Material material, LampLight lamp, La
     arrive(path, departure, lamps, ahead(walk.hit), walk.blocked);
 }
 
-// With skies or emitting planes the last direction is like others, because lamp samples do not find their light.
+// Lamp samples do not find the light of skies and emitting planes. With these, the last direction is sampled like
+// others.
 Material material_to_leave(uint surface, uint vertex_count)
 {
     Material material = material_of(surface);
@@ -214,8 +215,8 @@ Material material_to_leave(uint surface, uint vertex_count)
     return SAMPLE_LAMPS && SKY_COUNT + PLANES_EMIT == 0u && last ? at_last_direction(material) : material;
 }
 
-// Extends the path from a vertex beyond the first. begin is the vertex's first block. material_to_leave() gets the path
-// length as_vertex.
+// Extends the path from a vertex beyond the first. begin is the first block of its random numbers. material_to_leave()
+// gets the path length as_vertex.
 void extend(inout Path path, SampleKey key, uint begin, uint as_vertex, float time)
 {
     Vertex vertex = vertex_at(path.arrival, time);

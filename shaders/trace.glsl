@@ -15,7 +15,7 @@ const uint TRACED_VERTEX = 4u;
 const uint TRACED_THROUGHPUT = 5u;
 const uint TRACED_RADIANCE = 6u; // radiance in film units
 
-uint trace_piece; // index of this invocation
+uint trace_piece;
 uint trace_count = 1u;
 uvec4 trace_kept = uvec4(0u);
 float trace_origin;

@@ -126,7 +126,6 @@ Entered enter_node(NodeWords words, GridRay ray, vec3 inverse, float before)
     } while (i < TREE_WIDTH);
     entered &= (1u << child_count) - 1u;
 
-    // A sorting network.
     uint a = min(keys[0], keys[1]);
     uint b = max(keys[0], keys[1]);
     uint c = min(keys[2], keys[3]);

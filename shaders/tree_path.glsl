@@ -1,6 +1,6 @@
 // Paths among tree spheres, in short steps. Invocations of a subgroup would wait for the longest walk. So all walks
-// take some trips; then finished ones continue with their next ray, branch or sample (Aila and Laine, "Understanding
-// the Efficiency of Ray Traversal on GPUs", HPG 2009, section 3.3). path.glsl gives the same results.
+// take some trips of the loop. Then finished ones continue with their next ray, branch or sample (Aila and Laine,
+// "Understanding the Efficiency of Ray Traversal on GPUs", HPG 2009, section 3.3). path.glsl gives the same results.
 #ifndef TREE_PATH_GLSL
 #define TREE_PATH_GLSL
 

@@ -296,8 +296,8 @@ std::vector<Pattern> cosine_patterns() {
 // ---- 6b and 6c: lamps -----------------------------------------------------------------------------------------------
 
 constexpr std::uint32_t lamp_samples = 16;
-constexpr double most_needed = 2.0;    // samples for each sample of the library's kernel
-constexpr double of_directions = 12.0; // larger, because only chance finds lamps
+constexpr double most_needed = 2.0;    // limit of samples_needed()
+constexpr double of_directions = 12.0; // the same limit if only chance finds lamps
 
 SceneFile lamp_scene(const char *name) {
     SceneFile scene = course_scene(name, lamp_samples, 2, PT_ESTIMATOR_LIGHT);

@@ -22,7 +22,7 @@ void check_names(const RenderOptions &options);
 
 void check_names(const OutputOptions &options, const std::vector<NamedFile> &sources);
 
-// Throws Failure if an image is too large for its format, or if a known name cannot be written.
+// Throws Failure if an image is too large for its format, or if an output file cannot be written.
 void check_files(const OutputOptions &options, const ImageWindow &window);
 
 void check_outputs(const RenderTask &task);

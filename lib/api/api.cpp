@@ -342,7 +342,7 @@ pt_result pt_get_warning(pt_context *context, pt_broken_rule *warning) {
 
 pt_result pt_get_error_estimate(pt_context *context, pt_error_estimate *error) {
     return pt::guard_context(context, [&](pt::Renderer &renderer) {
-        pt::struct_size_of(error, "error"); // refuses a wrong struct before the work
+        pt::struct_size_of(error, "error");
         pt::copy_out(pt::stated(renderer.error_with_lamps()), error, "error");
     });
 }

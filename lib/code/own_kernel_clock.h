@@ -4,9 +4,9 @@
 
 namespace pt {
 
-// Decides when a scene gets its own kernel. After a second of use the kernel has saved the time of its build. A wait of
-// a second before takes at most twice the optimal time (ski rental problem). The wait doubles if a kernel was used for
-// less than that, and is reset otherwise.
+// Decides when a scene gets its own kernel. After a second of use the kernel has saved the time of its build. Waiting a
+// second before the build takes at most twice the optimal time (ski rental problem). The wait doubles if a kernel was
+// used for less than a second, and is reset otherwise.
 class OwnKernelClock {
 public:
     static constexpr double seconds_to_pay = 1.0;

@@ -1,4 +1,3 @@
-// Open Image Denoise, loaded on demand.
 #pragma once
 
 #include <pt/denoise.h>

@@ -1,4 +1,3 @@
-// Pixels for displays; see pt/display.h.
 #pragma once
 
 #include <pt/display.h>

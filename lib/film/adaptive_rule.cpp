@@ -20,7 +20,7 @@ constexpr double root_of_half = 0.70710678118654752440;
 
 // 2^(-halves / 2), with the same bits on all machines.
 double power_of_halves(std::int32_t halves) {
-    const std::int32_t wholes = halves >> 1; // rounded down
+    const std::int32_t wholes = halves >> 1;
     return std::ldexp((halves & 1) != 0 ? root_of_half : 1.0, -wholes);
 }
 
@@ -34,7 +34,7 @@ std::int32_t last_content_round(double gain) {
     return -2 * exponent + (fraction <= 0.5 ? 2 : fraction <= root_of_half ? 1 : 0);
 }
 
-// Sums of squared errors of tiles, by the last round in which these tiles need no samples.
+// Sums of tiles' squared errors. The key is the last round in which the tiles need no samples.
 using SquaresByRound = std::map<std::int32_t, double>;
 
 SquaresByRound by_content_round(std::span<const double> gains, std::span<const double> squares) {
@@ -52,7 +52,8 @@ SquaresByRound by_content_round(std::span<const double> gains, std::span<const d
 }
 
 // With stratified samples, squared errors fall about as N^-1.5. Doubling a tile's samples divides its squared error by
-// 2^1.5 and its gain by 2^2.5. The bound falls by 2^2.5 in five rounds.
+// 2^1.5 and its gain by 2^2.5. bound_of() falls by 2^2.5 in five rounds, so a tile doubles its samples once in five
+// rounds.
 double expected_sum(const SquaresByRound &squares, std::int32_t round) {
     constexpr std::int32_t rounds = 5; // rounds per doubling
     constexpr std::int32_t halves = 3; // the exponent 1.5 in halves
@@ -90,8 +91,8 @@ std::vector<double> tile_gains(const TileSamples &samples, std::span<const doubl
     return gains;
 }
 
-// For tiles with the variances v, sample counts in proportion to sqrt(v) reach the same error with mean(sqrt v)^2 /
-// mean(v) times as many samples as equal counts.
+// Let v be the variances of tiles. If sample counts are proportional to sqrt(v), the same error takes mean(sqrt v)^2 /
+// mean(v) times as many samples as with equal counts.
 bool are_worth_telling_apart(std::span<const double> gains) {
     constexpr double least_ratio = 1.2;
     double sum = 0.0;

@@ -1,5 +1,5 @@
 // Decides which tiles of a film take more samples (shaders/README.md, section 11). A tile's number of samples per pixel
-// is a level: 16, 32, 64, .... A tile's gain is the expected decrease of the squared error per added sample.
+// is one of the levels 16, 32, 64, .... A tile's gain is the expected decrease of the squared error per added sample.
 #pragma once
 
 #include "lib/film/error_estimate.h"

@@ -136,7 +136,8 @@ double sample_ratio(const pt_compare_info &info) {
     return first > 0.0 && second > 0.0 ? std::max(first / second, second / first) : 1.0;
 }
 
-// The largest differences of single pixels. By chance a region may lack a rare sample that makes such a difference.
+// The largest differences of single pixels. A rare bright sample makes such a difference, and a region may lack it by
+// chance.
 struct Events {
     double absolute = 0.0; // largest difference of pixels that differ by more than their darker value
     double relative = 0.0; // largest difference of other pixels, as a fraction of the darker value

@@ -17,7 +17,7 @@ constexpr double channels = 3.0;
 // An estimate is uncertain if more than this fraction of the squared error is unseen light. Calibrated.
 constexpr double much_unseen = 0.1;
 
-// An estimate is uncertain if rarer light could multiply the squared error by this. Calibrated.
+// An estimate is uncertain if rarer light could multiply the squared error by this factor. Calibrated.
 constexpr double much_more = 3.0;
 
 // Halton points are the same in all pixels, so errors of neighbors are correlated and estimates have a larger variance.
@@ -32,7 +32,7 @@ double margin_of_sequence(std::uint32_t sampler) {
     return sampler == PT_SAMPLER_RANDOM ? 1.0 : 1.145;
 }
 
-// The number of equal squares whose sum would have the same relative variance.
+// Effective number of pixels: the number of equal squares whose sum has the same relative variance.
 double pixel_count(const ErrorSquares &squares) {
     return squares.sum > 0.0 ? squared(squares.sum) / squares.of_pixels : infinity;
 }
@@ -44,10 +44,11 @@ void add_squares(ErrorSquares &to, const ErrorSquares &other, double factor = 1.
     to.times_tile_sizes += factor * other.times_tile_sizes;
 }
 
-// Corrects the relative errors of light that samples of only one half hit in a pixel. Let w be the expected number of
-// hits in a pixel, and q = e^(-w / 2). Then neither half hits the light in a fraction q^2 of the pixels, one half in 2
-// q (1 - q), and both in (1 - q)^2. If b is the ratio of the last two, w = 2 ln(1 + 2 b). A pixel with mean T that one
-// half hit has the expected value w T. So its error relative to this value is 1 / w times its error relative to T.
+// Returns the factor for squared relative errors in pixels where only one half of the samples has hit a light. Let w be
+// the expected number of hits in a pixel, and q = e^(-w / 2). Neither half hits the light in a fraction q^2 of the
+// pixels, exactly one half in 2 q (1 - q), and both halves in (1 - q)^2. If both are b times as frequent as exactly
+// one, w = 2 ln(1 + 2 b). A pixel with mean T that one half hit has the expected value w T. So its error relative to
+// this value is 1 / w times its error relative to T.
 double square_by_hits(double met_once, double met_again) {
     const double hits = 2.0 * std::log1p(2.0 * met_again / (met_once + 1.0));
     return std::max(1.0, 1.0 / squared(hits));
@@ -73,8 +74,8 @@ double share_added(double pixel_count) {
 }
 
 // The logarithm of the root of a sum of m squared normal variables has the standard deviation 1 / sqrt(2 m). Since E
-// x^4 = 3, pixel_count() makes n = m / 3 of them. The true error varies as much as its estimate, so the ratio of both
-// has the standard deviation 1 / sqrt(3 n).
+// x^4 = 3, they count as n = m / 3 pixels in pixel_count(). The true error varies as much as its estimate, so the ratio
+// of both has the standard deviation 1 / sqrt(3 n).
 double spread_of_pixels(double pixel_count) {
     return std::exp(normal_95 / std::sqrt(3.0 * pixel_count));
 }

@@ -29,8 +29,8 @@ inline constexpr double normal_95 = 1.96;
 // An estimate from fewer equal pixels is uncertain. Calibrated.
 inline constexpr double few_pixels = 4.0;
 
-// Both functions take an effective number of pixels. share_added() is the fraction to add to an estimate.
-// spread_of_pixels() is the factor between the estimate and its bounds.
+// `pixel_count` is an effective number of pixels. share_added() is the fraction to add to an estimate,
+// spread_of_pixels() the factor between the estimate and its bounds.
 double share_added(double pixel_count);
 double spread_of_pixels(double pixel_count);
 

@@ -14,7 +14,7 @@ namespace pt {
 
 namespace {
 
-// A larger tile must be a single row. So cut_along() copies tiles of at most 7 MB.
+// Larger tiles must be single rows, so that cut_along() copies at most 7 MB.
 constexpr std::uint32_t most_tile_pixels = 1U << 16;
 
 std::string where(const Rectangle &pixels) {
@@ -98,8 +98,8 @@ std::vector<Film::Tile> Film::outside(const TileMap &map, std::vector<Tile> tile
     return found;
 }
 
-// Adds the pixels that both tiles have. `samples` is the union of their samples. A tile whose split differs from the
-// split of the union has all its samples on one side of the latter.
+// Adds the pixels that both tiles have. `samples` is the union of their samples. If a tile's split differs from the
+// union's, all samples of the tile are on one side of the union's split.
 void Film::add_to(Tile &tile, const Tile &other, SampleSet samples) noexcept {
     const std::uint64_t split = split_of(samples.hull());
     const std::uint64_t others_split = split_of(other.samples.hull());

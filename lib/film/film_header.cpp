@@ -26,7 +26,7 @@ constexpr std::string_view lamps_name = "lamps";
 
 constexpr std::uint64_t max_round = 10'000;
 
-// Several times the present number. The limit bounds the memory of a parser, which is many times the text's length.
+// Limits the memory of the parser, which is many times the text's length.
 constexpr std::size_t max_facts = 100;
 
 [[noreturn]] void refuse(const std::string &message) {

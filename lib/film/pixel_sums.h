@@ -70,7 +70,7 @@ public:
     // Adds the other part to this part and clears the other part.
     void fold_into(std::uint32_t part, std::size_t first, std::size_t count) noexcept;
 
-    // Moves sums between the parts, so that `samples` are split at `split`, the split of a larger set.
+    // `split` divides a larger set. Moves all sums into one part if `samples` alone would be divided at another index.
     void split_for(const SampleSet &samples, std::uint64_t split, std::size_t first, std::size_t count) noexcept;
 
     // Copies the planes that both objects have.
@@ -99,7 +99,7 @@ private:
 struct PixelValue {
     float mean;           // 0 if all samples were rejected
     float standard_error; // infinity if a part has no samples
-    float lesser;         // smaller mean of the parts; 0 if a part has no samples
+    float lesser;         // smaller of the two parts' means; 0 if a part has no samples
 };
 
 // Rounds as in quotient.h.

@@ -98,8 +98,8 @@ std::string text_of(const SampleSet &samples) {
     return text;
 }
 
-// The index in (first, last] with the most trailing zeros has the common leading bits of both ends, then a one, then
-// zeros.
+// The index in (first, last] with the most trailing zeros begins with the bits that first and last share; then it has a
+// one, then zeros.
 std::uint64_t split_of(const SampleRange &hull) {
     if (hull.count() < 2)
         return multiple_from(hull.end, min_part);

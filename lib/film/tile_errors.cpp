@@ -124,7 +124,7 @@ std::span<const TileErrors> FilmErrors::of(const TileSamples &samples, double un
     const TileGrid &grid = samples.grid();
     const bool is_known = !tiles_.empty() && samples_.grid() == grid;
     if (!is_known) {
-        samples_ = {}; // stays empty if read() throws
+        samples_ = {}; // is still empty if read() throws
         tiles_.assign(grid.count(), {});
     }
     PixelSums rows;

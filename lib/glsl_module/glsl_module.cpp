@@ -42,7 +42,6 @@ std::string read_source(const fs::path &path) {
     return text;
 }
 
-// Searches a file beside the including file, then in the directory.
 class Includer : public glslang::TShader::Includer {
 public:
     Includer(fs::path directory, const fs::path &main_file) :

@@ -14,7 +14,6 @@
 
 namespace pt {
 
-// Returns the scene's bindings, then the further ones.
 std::vector<vulkan::Binding> with_scene_bindings(std::initializer_list<vulkan::Binding> further);
 std::vector<vulkan::BufferRange> scene_ranges(const GpuScene &scene, const vulkan::Buffer &words,
                                               const vulkan::Buffer *tree);

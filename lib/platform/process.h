@@ -1,4 +1,3 @@
-// This process: its files, its memory, and programs that it runs.
 #pragma once
 
 #include <cstdint>

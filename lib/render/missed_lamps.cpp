@@ -13,8 +13,8 @@ namespace pt {
 
 namespace {
 
-// Of uniform directions, a fraction 1 / (n + 1) is within the half-width of a lobe of glossiness n. Only some
-// estimators find lobes by chance.
+// A fraction 1 / (n + 1) of uniform directions is within the half-width of a lobe of glossiness n. Only some estimators
+// find lobes by chance.
 double smallest_lobe_share(const PreparedScene &scene, std::uint32_t estimator) {
     double share = 1.0;
     if (estimator == PT_ESTIMATOR_UNIFORM || estimator == PT_ESTIMATOR_COSINE)

@@ -16,7 +16,7 @@
 
 struct pt_scene_file {
     pt::SceneFile read;
-    std::size_t animated_count = 0; // first overrides that come from the animation
+    std::size_t animated_count = 0; // overrides of the animation, which come first
     std::vector<pt_sphere_array> arrays;
     std::vector<std::string> column_paths;
     std::string message;

@@ -90,7 +90,7 @@ inline Box balls_of(Items items) {
     return box;
 }
 
-// A group of spheres to be split. Large parts have the boxes of a sample.
+// A group of spheres to be split. Large groups have the boxes of a sample.
 struct Part {
     Items items;
     Box centres; // a single point only if all centers are equal

@@ -99,8 +99,8 @@ struct Children {
     std::span<Part> all() { return std::span(parts).first(count); }
 };
 
-// The part with the larger surface comes first. Deep in the tree, the part with more spheres comes first, so that no
-// child has more than a quarter of them.
+// The part with the larger surface is divided first. Deep in the tree, the part with more spheres is divided first, so
+// that no child has more than a quarter of the spheres.
 bool goes_before(const Part &part, const Part &other, std::uint32_t depth) {
     return depth < free_depth ? part.surface > other.surface : part.items.size() > other.items.size();
 }

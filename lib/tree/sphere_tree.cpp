@@ -24,7 +24,7 @@ constexpr std::uint32_t nowhere = ~std::uint32_t{0};
 // and building takes twice as long as reuse.
 constexpr double most_growth = 1.25;
 
-// Fractions of the remaining work, for a million spheres.
+// For progress.enter(): the fraction of the remaining work that each step takes with a million spheres.
 constexpr double share_of_items = 0.1;
 constexpr double share_of_shape = 0.65;
 constexpr double share_of_spheres = 0.5;

@@ -86,7 +86,7 @@ public:
     struct Farthest {
         std::uint32_t sphere; // scene index
         MovingBall surface;
-        double distance; // distance of its center from the middle
+        double distance; // distance of its center from the median center
     };
     Farthest farthest() const;
 
@@ -95,7 +95,6 @@ public:
 
     PointBox bounds() const { return {grid_.point(box_.low), grid_.point(box_.high)}; }
 
-    // Whether a lamp and another sphere nearly coincide (twins.h).
     bool has_close_lamps() const { return close_lamps_; }
 
 private:

@@ -17,9 +17,9 @@ namespace pt {
 
 namespace {
 
-// A fraction of length + radius.
+// The unit is length + radius.
 constexpr double rounding_of_capsules = 0x1p-21;
-// A fraction of the radius. The last bits of its float32 are the opacity.
+// The unit is the radius. The last bits of its float32 are the opacity.
 constexpr double rounding_of_radii = 0.5 * (gpu::TREE_OPACITY_STEPS + 1) * 0x1p-23;
 
 // Largest displacements by rounding, in scene units.

@@ -23,8 +23,8 @@ float mean(const glm::vec3 &color) {
     return (color.r + color.g + color.b) / 3.0F;
 }
 
-// Proportional to reflectance. Diffuse reflectance counts twice, because its light comes from a hemisphere and varies
-// more.
+// Proportional to specular reflectance. Diffuse reflectance counts twice, because its light comes from a hemisphere and
+// varies more.
 float specular_probability(const Material &material) {
     const float specular = mean(material.specular);
     const float diffuse = 2.0F * mean(material.diffuse);

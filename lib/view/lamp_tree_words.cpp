@@ -12,7 +12,7 @@ namespace pt {
 
 namespace {
 
-// float32, because nodes must contain the lamps as the kernel sees them.
+// Nodes must contain the lamps as the kernel sees them, in float32.
 struct Ball {
     glm::vec3 open;
     glm::vec3 way{0.0F};

@@ -43,7 +43,7 @@ Scene with_lamps(Scene scene, const SphereTree &tree) {
     return scene;
 }
 
-// Leaves out the tree's shape, which depends on earlier scenes.
+// The digest leaves out the tree's shape, which depends on earlier scenes.
 std::string digest_with_tree(const PreparedScene &prepared) {
     Digest digest;
     digest.add(digest_of(prepared.scene));
@@ -53,7 +53,7 @@ std::string digest_with_tree(const PreparedScene &prepared) {
     return digest.text();
 }
 
-// Fractions of the remaining work, for progress.
+// Fractions of the remaining work, for progress.enter().
 constexpr double share_of_hidden = 0.05;
 constexpr double share_of_outlying = 0.05;
 constexpr double share_of_materials = 0.02;

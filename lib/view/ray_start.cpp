@@ -22,7 +22,7 @@ constexpr double narrow_pixel = 0x1p-14; // side of a pixel at distance 1
 
 // The pyramid of rays through the center of the lens, and the cone around it.
 struct View {
-    std::array<glm::dvec3, 4> corners; // directions of depth 1
+    std::array<glm::dvec3, 4> corners; // directions, scaled to 1 along `forward`
     glm::dvec3 forward;
     double half_angle;
     double aside; // largest distance of lens rays from the pinhole ray
@@ -53,8 +53,8 @@ double angle_from_middle(const glm::dvec3 &point, const View &view) {
 }
 
 // The cone's direction nearest to the center hits the ball first. With b = d cos(angle), the distance is b - sqrt(r^2 -
-// d^2 sin^2(angle)) = (d^2 - r^2) / (b + sqrt(r^2 - d^2 sin^2(angle))). The second form is precise for small distant
-// balls.
+// d^2 sin^2(angle)) = (d^2 - r^2) / (b + sqrt(r^2 - d^2 sin^2(angle))). The second form avoids cancellation for small
+// distant balls.
 double depth_of_ball(const glm::dvec3 &centre, double radius, const View &view) {
     const double distance = glm::length(centre);
     const double power = (distance - radius) * (distance + radius);
@@ -84,7 +84,7 @@ double depth_from_within(const glm::dvec3 &centre, double radius, const View &vi
     return (distance * std::cos(farthest) + half_chord) * std::cos(view.half_angle);
 }
 
-// In perspective, depth_of_ball() of the whole motion is a good bound.
+// In perspective, depth_of_ball() of the whole motion is good enough.
 double depth_on_way(const MovingBall &, const View &) {
     return 0.0;
 }
@@ -116,7 +116,7 @@ double nearest_depth(const CurvedPlane &plane, const ParallelView &view) {
 
 // The line of the cylinder that is nearest to the center hits the ball first. Let a be the center's depth and c its
 // distance from the line. The depth is a - sqrt(r^2 - c^2) = (a^2 + c^2 - r^2) / (a + sqrt(r^2 - c^2)). The second form
-// is precise.
+// avoids cancellation.
 double depth_of_ball(const glm::dvec3 &centre, double radius, const ParallelView &view) {
     const double depth = glm::dot(centre, view.forward);
     const double across = glm::length(centre - depth * view.forward);
@@ -167,7 +167,7 @@ double depth_of_sphere(const MovingBall &sphere, const AnyView &view, double mar
     return depth_of_region({sphere.open, sphere.way, sphere.radius * (1.0 + margin)}, view);
 }
 
-// Returns a lower bound. Rays start so far from tree spheres that float32 can decide on which side they are.
+// Returns a lower bound. Rays start so far from tree spheres that float32 can decide on which side they start.
 template <typename AnyView>
 double first_depth(const Scene &scene, const SphereTree *tree, const Camera &camera, const AnyView &view) {
     double depth = out_of_view;

@@ -15,7 +15,7 @@
 
 namespace pt {
 
-// Enough trips for two rays: for 10^6 spheres, the longest walk of invocations in lockstep has about 100 trips. Samples
+// Two rays have enough trips: for 10^6 spheres, the longest walk of invocations in lockstep takes about 100. Samples
 // that need more are lost and reported (walk_was_cut in tree_walk.glsl).
 std::uint64_t loop_trips_per_walk(const Features &features) {
     constexpr std::uint64_t tree_trips = 200;
@@ -30,7 +30,7 @@ bool samples_lamps(const Features &features) {
 
 namespace {
 
-// Whether a sphere lies in the convex region around the camera that planes bound.
+// Whether a sphere lies in the convex region around the camera between the planes.
 bool is_in_region(const std::vector<CurvedPlane> &planes, const SeenSphere &sphere) {
     const std::array way = {sphere.open, sphere.close()};
     return std::ranges::all_of(planes, [&](const CurvedPlane &plane) {
@@ -64,7 +64,7 @@ std::uint32_t rounded_up(std::uint32_t levels) {
     return (levels + step - 1) / step * step;
 }
 
-// There are two loops over the lamps or, with a tree, one over the top groups and two down the levels.
+// Counts two loops over the lamps or, with a lamp tree, one over the top groups and two down the levels.
 std::uint64_t lamp_trips(const Features &features) {
     return features[gpu::ID_LAMP_TREE_LEVELS] ? gpu::LAMP_TREE_TOP_GROUPS + 2 * features[gpu::ID_LAMP_TREE_LEVELS]
                                               : 2 * std::uint64_t{features[gpu::ID_LAMP_COUNT]};
@@ -126,8 +126,8 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
     features[gpu::ID_PLANES_BLOCK] = features[gpu::ID_CURVATURE] || planes_divide || planes_are_passed ||
                                      std::ranges::any_of(lamps, is_behind_a_plane) ||
                                      (tree_lamps > 0 && !is_in_region(distinct.seen.planes, tree->bounds(), camera));
-    // Distinct flat planes do not need known sides. Sides are not known if rays start on both sides of a surface or
-    // pass through it.
+    // Sides are not known if rays start on both sides of a surface or pass through it. Distinct flat planes do not need
+    // known sides.
     const bool starts_divided = distinct.seen.any_surface(divides) || (tree && tree->divides_start(camera));
     const bool some_are_passed = planes_are_passed || std::ranges::any_of(distinct.seen.spheres, is_passed);
     features[gpu::ID_KNOWN_SIDES] =

@@ -91,7 +91,7 @@ struct Window {
     std::uint32_t row_count;
 };
 
-// `center` is relative to the camera and in front of it. The lens blurs each point to a disc. Squares of radii are
+// `center` is relative to the camera and in front of it. The lens blurs each point to a disc. Squares of both radii are
 // added, because they are proportional to variances.
 Disc disc_of(const glm::dvec3 &center, double radius, const Camera &camera, const Window &window) {
     const double depth = glm::dot(center, camera.forward);
@@ -141,8 +141,8 @@ void add_pieces(std::vector<LampPiece> &pieces, std::size_t first, Disc disc, in
     }
 }
 
-// A moving lamp counts at several times while the shutter is open. If it moves by more than a pixel between two of
-// them, each also stands for the pixels between.
+// A moving lamp counts at several times while the shutter is open. If it moves by more than a pixel between two times,
+// its disc at each time also stands for the pixels between.
 void add_lamp(std::vector<LampPiece> &pieces, const PreparedScene &scene, const Camera &camera, const Window &window,
               const SeenSphere &lamp, const glm::dvec3 &emission) {
     constexpr double most_moments = 64.0;

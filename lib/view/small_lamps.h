@@ -21,8 +21,8 @@ struct LampPiece {
     double pixels = 1.0;
     bool is_spread = false; // whether even quasi-random samples hit the piece at random
 
-    // Samples per pixel for a relative standard deviation of hits of at most a third: 8 random hits, or 3 hits of
-    // quasi-random points.
+    // Samples per pixel for 8 hits of random points or 3 of quasi-random ones. Their number then has a relative
+    // standard deviation of at most a third.
     double enough_samples(bool is_random) const;
 };
 
@@ -48,9 +48,9 @@ struct UnmetSquares {
 };
 
 // Sums the expected errors of lamps for which samples(piece) are too few. If each of n samples hits a piece of emission
-// E with probability p, the number of hits has the mean n p. For random samples, its variance is n p (1 - p).
-// Quasi-random points lie one in each of n cells, so only cells on the edge of the piece contribute. A disc has about
-// 4.5 sqrt(n p) such cells with variance 0.13 each, in total 0.6 sqrt(n p). The error of the mean is E / n times the
+// E with probability p, the number of hits has the mean n p. For random samples, its variance is n p (1 - p). Each of n
+// cells has one quasi-random point, so only cells on the edge of the piece contribute to the variance. A disc has about
+// 4.5 sqrt(n p) such cells. Each adds 0.13, so the variance is 0.6 sqrt(n p). The error of the mean is E / n times the
 // root of the variance. `offset` is as in (x - r)^2 / (r^2 + offset).
 UnmetSquares unmet_squares(const std::vector<LampPiece> &pieces, double offset, bool is_random,
                            const std::function<std::uint64_t(const LampPiece &)> &samples);

@@ -27,7 +27,7 @@ double tolerance(const SeenSphere &sphere) {
 }
 
 // If two curved planes agree within same_size, and the offset is small compared with the radius, centers and radii
-// agree within three times that.
+// agree within 3 same_size.
 double reach(const SeenSphere &sphere) {
     return sphere.is_flat ? 4.0 * same_size * sphere.radius : tolerance(sphere);
 }

@@ -5,7 +5,7 @@
 namespace pt {
 
 // A scene without twins, whose surfaces float32 cannot distinguish. Only the first twin is kept. Otherwise rounding
-// would choose another one for each ray of a path, and light would count twice or never.
+// would choose one of the twins for each ray of a path, and light would count twice or never.
 struct DistinctScene {
     SeenScene seen;
     bool close_lamps;

@@ -27,7 +27,6 @@ struct Limits {
     std::uint64_t loop_trip_budget; // the driver silently ends longer loops
 };
 
-// How the library uses a device.
 struct DevicePolicy {
     std::chrono::nanoseconds patience;
     bool share_memory;

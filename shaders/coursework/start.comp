@@ -44,7 +44,7 @@ float next_number()
 
 // ---- Surfaces -----------------------------------------------------------------------------------------------------
 
-const float NEAR = 0.001; // rays that leave a surface do not meet it again
+const float NEAR = 0.001; // nearer hits do not count: a ray must not hit the surface that it leaves
 const float FAR = 1.0e9;
 
 struct Ray {
@@ -65,7 +65,7 @@ struct Material {
     float glossiness;
 };
 
-// The scene buffer's colors include the factors of reflection.
+// The scene buffer has diffuse / pi and specular (n + 2) / (2 pi). This returns the colors without these factors.
 Material material_of(uint surface)
 {
     vec4 specular = specular_of(surface);
@@ -84,7 +84,7 @@ float distance_to_sphere(Ray ray, vec4 sphere)
     return across < sphere.w * sphere.w && distance > NEAR ? distance : FAR;
 }
 
-// Where it meets a plane (normal, offset): dot(normal, origin + distance direction) + offset = 0.
+// Where a ray meets a plane (normal, offset): dot(normal, origin + distance direction) + offset = 0.
 float distance_to_plane(Ray ray, vec4 plane)
 {
     float distance = -(dot(plane.xyz, ray.origin) + plane.w) / dot(plane.xyz, ray.direction);
@@ -120,12 +120,12 @@ vec3 sample_of(uvec2 pixel)
 {
     vec2 from_middle = image_place(frame.camera, pixel, vec2(0.5)); // through the middle of the pixel
     vec3 direction = camera_direction(frame.camera, from_middle);
-    vec3 origin = camera_origin(frame.camera, from_middle) - 2.0 * NEAR * direction; // it may start on a surface
+    vec3 origin = camera_origin(frame.camera, from_middle) - 2.0 * NEAR * direction; // the ray may start on a surface
     Ray ray = Ray(origin, direction);
     Hit hit = nearest(ray);
     if (hit.distance == FAR)
         return vec3(0.0);
-    trace_vertex(1u, hit.position, vec3(1.0)); // `pt view` shows it
+    trace_vertex(1u, hit.position, vec3(1.0)); // for `pt view`
     return vec3(dot(hit.normal, -ray.direction));
 }
 

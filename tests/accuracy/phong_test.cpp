@@ -82,8 +82,9 @@ Real power(Real cosine, Real n) {
 
 // The lobe is max(0, wo . r)^n. mirror_error is the error of r. Let u = 2^-24 and y = |wo - r|^2 / 2. Differences add
 // errors of 2 u, squares add u, and sums add 2 u. If the lengths are 1 + a and 1 + b, y becomes y (1 + a) (1 + b) + (a
-// - b)^2 / 2. log2(1 - y) has a relative error of 22 u, from 18 ulp of at most u / 2 at the value 0.42. The product
-// with n adds u, and 2^x adds 3 + 2 |x| ulp of at most 2 u. Below 2^-99 the lobe is 0.
+// - b)^2 / 2. The relative error of log2(1 - y) is largest at y = 1/4, where the value is 0.415 and an ulp is u / 2: 18
+// ulp = 9 u < 22 u * 0.415. The product with n adds u, and 2^x adds 3 + 2 |x| ulp of at most 2 u. Below 2^-99 the lobe
+// is 0.
 Bounded lobe(const Direction &r, const Direction &wo, Real r_length, Real wo_length, Real mirror_error, Real n) {
     const Direction chord = wo - r;
     const Real y = glm::dot(chord, chord) / 2;

@@ -1,5 +1,6 @@
-"""A compiler launcher that takes objects from another build if they are equal. Arguments: a file with the other build's commands (`ninja -t
-compdb`), the other build, this build's folder of pt, and the compiler's command."""
+"""A compiler launcher that copies an object file from another build if its sources and its command are the same. Arguments:
+a file with the other build's commands (`ninja -t compdb`), the other build, this build's folder of pt, and the compiler's
+command."""
 
 import json
 import pathlib

@@ -91,7 +91,7 @@ TEST(Displacement, OpaqueSpheresAreNotInTheTree) {
     EXPECT_FALSE(displaced({{{0, 0, -5}, 1, half}, {{0, 0, -1e9}, 1, 1.0F}}));
 }
 
-// Radii have an error of 2^-16. A pixel at distance 8 has the side 1 / 64, which is 2^-16 of 1024.
+// Radii have a relative error of 2^-16. The error of the radius 1024 is 1 / 64, the side of a pixel at distance 8.
 TEST(Displacement, OfTranslucentRadii) {
     const auto ball = [](double radius) { return Surface{{0, 0, -radius - 8.0}, radius, half}; };
     EXPECT_FALSE(displaced({ball(1000)}));

@@ -85,9 +85,9 @@ struct Reference {
 //
 // Let y = x + o n. A ray's origin x has the height n . x + o + k / 2 |y|^2. Let S = |x| + |o| + |y| (1 + k |y|), and c
 // be the cosine at the hit. Rounding n, o and k and ten operations give the height an error of 8 eps S, and the slope
-// an error of 8 eps (1 + k |y|). The distance has the height's error / c, plus the slope's error t / c. The root
-// doubles both: 16 eps (S + t (1 + k |y|)) / c. The point's error is the height's error at the point. The normal's
-// error is k times this error, plus rounding.
+// an error of 8 eps (1 + k |y|). The distance has the error (height's error + t * slope's error) / c. The root doubles
+// both: 16 eps (S + t (1 + k |y|)) / c. The point's error is the height's error at the point. The normal's error is k
+// times this error, plus rounding.
 struct Worst {
     double distance = 0, position = 0, normal = 0;
     int missed = 0, compared = 0;

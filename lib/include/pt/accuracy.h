@@ -13,7 +13,7 @@ extern "C" {
  * 2^(e + 1). */
 typedef struct pt_function_accuracy {
     char name[40];      /**< UTF-8, zero-terminated */
-    double worst_error; /**< largest error, >= 0; INFINITY if the device returned NaN, infinity or nothing */
+    double worst_error; /**< >= 0; INFINITY if the device returned NaN, infinity or nothing */
     double bound;       /**< largest error that Vulkan allows */
     double worst_input; /**< argument of worst_error */
 } pt_function_accuracy;

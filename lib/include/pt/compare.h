@@ -40,7 +40,7 @@ typedef struct pt_compare_info {
     uint32_t width;       /**< pixels of both images, >= 1 */
     uint32_t height;      /**< pixels, >= 1; width * height <= 2^32 - 1 */
     /** 0 for a single comparison. If images are compared repeatedly while samples are added: the number k of this
-     * comparison, from 1. Comparison k has the rate / (k (k + 1)), so all together have the rate. */
+     * comparison, from 1. Comparison k has the probability rate / (k (k + 1)), so all together have rate. */
     uint32_t look;
     pt_compared_image first;  /**< the image to be judged */
     pt_compared_image second; /**< the reference; changes are fractions of its light */

@@ -19,7 +19,7 @@ extern "C" {
 /** Input and output of pt_denoise. Images are in PT_FORMAT_RGB32F, row by row from the top without gaps. */
 typedef struct pt_denoise_info {
     uint32_t struct_size; /**< sizeof(pt_denoise_info) */
-    uint32_t width;       /**< pixels of all images, >= 1 */
+    uint32_t width;       /**< pixels, >= 1 */
     uint32_t height;      /**< pixels, >= 1; width * height <= 2^32 - 1 */
     /** 0: the CPU; else the default device of Open Image Denoise, which its environment variable OIDN_DEFAULT_DEVICE
      * can set. */
@@ -38,9 +38,10 @@ typedef struct pt_denoise_info {
 
 /** Denoises an image, and estimates the error of the denoised picture. Open Image Denoise starts threads.
  *
- * The bounds lie 1.96 standard errors below and above the estimate of the squared error, rmse and relative_rmse 1.28
- * above it. If the error comes from fewer than 8 tiles of 8 x 8 pixels, it is uncertain (PT_UNCERTAIN_RMSE,
- * PT_UNCERTAIN_RELATIVE_RMSE), and the bounds are twice as wide. Light that no sample has found is not included.
+ * If q estimates the squared error and s is its standard error, the error is sqrt(q + 1.28 s), the bounds sqrt(q - 1.96
+ * s) and sqrt(q + 1.96 s). If the error comes from fewer than 8 tiles of 8 x 8 pixels, it is uncertain
+ * (PT_UNCERTAIN_RMSE, PT_UNCERTAIN_RELATIVE_RMSE), and the bounds are twice as wide. Light that no sample has found is
+ * not included.
  *
  * Any thread. PT_ERROR_UNSUPPORTED: Open Image Denoise is missing, has another version, or does not run on this
  * processor. */

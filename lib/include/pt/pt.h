@@ -290,8 +290,8 @@ enum {
 typedef struct pt_accumulate_info {
     uint32_t struct_size; /**< sizeof(pt_accumulate_info) */
     /** Samples to add to every pixel, >= 1; their indices stay below 2^32. If target_error is set, the pixels with most
-     * samples get at most this number. It may then be 0, to add samples only to pixels that a stopped call left with
-     * fewer. */
+     * samples get at most this number. sample_count may then be 0, to add samples only to pixels that a stopped call
+     * left with fewer. */
     uint32_t sample_count;
     /** NULL, or a function that pt_accumulate calls after every submission to a device. NULL for pt_start.
      *

@@ -74,7 +74,7 @@ typedef struct pt_error_estimate {
     double rmse;               /**< root mean square error, in units of radiance */
     double rmse_low;           /**< lower bound of rmse */
     double rmse_high;          /**< upper bound of rmse */
-    double relative_rmse;      /**< relative root mean square error; 0.01 is 1% */
+    double relative_rmse;      /**< relative root mean square error */
     double relative_rmse_low;  /**< lower bound of relative_rmse */
     double relative_rmse_high; /**< upper bound of relative_rmse */
 } pt_error_estimate;

@@ -57,7 +57,7 @@ struct pt_vulkan {
  *   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT.
  * - After: The writes are VK_ACCESS_SHADER_WRITE_BIT in VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT. Without signal_semaphore
  *   the call returns when they are available, also to the host (VK_ACCESS_HOST_READ_BIT). The caller must invalidate
- *   mapped memory that is not coherent. Commands on the device see the writes after a barrier with that source. With
+ *   mapped memory that is not coherent. Commands on the device see the writes after a barrier with this source. With
  *   signal_semaphore the call returns once the work is submitted. Commands that wait for the semaphore see the writes
  *   without a barrier, in the stages that wait.
  * - Lifetime: With signal_semaphore, the buffer and both semaphores must live until signal_semaphore has been signalled

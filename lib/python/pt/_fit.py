@@ -32,9 +32,11 @@ class Spin:
 def reach(centers: Array, radii: Array, axes: Doubles, directions: Doubles, spin: Spin | None = None) -> Doubles:
     """The support function of the balls: the maximum of dot(direction, center) + radius for each direction.
 
-    centers shape (n, 3), n >= 1 radii shape (n,) axes shape (3, 3); unit vectors in rows directions shape (k, 3); unit vectors in the
-    coordinates of the axes spin rotation of the balls; the result covers every angle
-
+    centers      shape (n, 3), n >= 1
+    radii        shape (n,)
+    axes         shape (3, 3); unit vectors in rows
+    directions   shape (k, 3); unit vectors in the coordinates of the axes
+    spin         rotation of the balls; the result covers every angle
     """
     farthest = np.full(len(directions), -np.inf)
     world = directions @ axes

@@ -1,6 +1,6 @@
 from __future__ import annotations
 
-FIRST_GUESS = 2000.0  # samples of tiles per second on a slow core
+FIRST_GUESS = 2000.0  # tiles per second, each with one sample per pixel, on a slow core
 LEAST_SECONDS = 0.1
 REMEMBERED = 5.0
 BUSY_SHARE = 0.5

@@ -54,9 +54,11 @@ LEGENDS: Final = ("svg", "pdf", "png")
 class Drawn:
     """Particles as balls in scene units. Scene units are the data's units, times a power of two if lengths are far from 1.
 
-    colors shape (n, 3), or (3,) for one color scale scene units per unit of the data settled options with the values that follow from
-    the data, in its units opacities shape (n,); None if all are opaque groups shape (n, 2): chain and residue; None if unknown
-
+    colors      shape (n, 3), or (3,) for one color
+    scale       scene units per unit of the data
+    settled     options with the values that follow from the data, in its units
+    opacities   shape (n,); None if all are opaque
+    groups      shape (n, 2): chain and residue; None if unknown
     """
 
     centers: Array

@@ -20,9 +20,9 @@ AHEAD: Final = ((0, 1), (1, -1), (1, 0), (1, 1))  # neighbouring rows in a grid,
 class Pairs(NamedTuple):
     """Pairs of different particles or images. Each pair occurs once.
 
-    first, second shape (k,): indices images shape (k, 3), int: edges by which the second particle is moved squares shape (k,): squared
-    distances
-
+    first, second   shape (k,): indices
+    images          shape (k, 3), int: how many edges of the cell the second particle is moved by
+    squares         shape (k,): squared distances
     """
 
     first: Array
@@ -66,7 +66,8 @@ def _is_first(first: Array, second: Array, steps: Array) -> Array:
 
 
 def _images(positions: Array, cell: Cell | None, cutoff: float) -> tuple[Array, Array]:
-    """Returns indices, and shifts in edges, of the particles in the cell, then of their images within the cutoff."""
+    """Returns the index and the shift of each particle in the cell, then of each image within the cutoff. A shift counts the edges of
+    the cell."""
     sources = np.arange(len(positions))
     if cell is None:
         return sources, np.zeros((len(positions), 3))

@@ -13,7 +13,7 @@ from pt._enums import Format, Quantity
 from pt._fit import Array, Doubles
 
 PER_SIDE: Final = 4
-MOST_PER_SIDE: Final = 32  # random coverage then has a standard deviation of 0.016
+MOST_PER_SIDE: Final = 32  # the coverage from 32 x 32 random rays has a standard deviation of up to 0.5 / 32 = 0.016
 MOST_RAYS: Final = 2**32 - 1
 BAND_ROWS: Final = 32
 LEAST_STEP: Final = 0.1
@@ -25,7 +25,7 @@ SMALL_STEP: Final = 1.0  # in radii; by taste, as the next four
 LARGE_STEP: Final = 8.0
 WIDER: Final = 2.0  # width of outlines at large steps
 RESIDUES_APART: Final = 6
-INK: Final = 0.2  # of a shape's color in its outline, in illustrative
+INK: Final = 0.2  # fraction of a shape's color in its outline, in the illustrative style
 
 
 @dataclass(frozen=True)
@@ -43,9 +43,14 @@ class Shares:
 
 @dataclass(frozen=True)
 class Overlaid:
-    """The shapes are `count` particles, then bonds, vectors and edges of the cell. `first` is the index of the first particle among all
-    spheres and capsules. `radii`, shape (n,), leave out edges, which have no outlines. With `steps`, outlines are at larger steps of
-    depth, and between different `groups`, shape (n, 2), of chain and residue."""
+    """The shapes of the picture, for outlines and depth cues.
+
+    first    index of the first particle among all spheres and capsules
+    count    number of particles, bonds, vectors and edges of the cell, in this order
+    radii    shape (n,), without edges of the cell, which have no outlines
+    steps    whether outlines are drawn only at larger steps of depth and between groups
+    groups   shape (n, 2): chain and residue
+    """
 
     first: int
     count: int

@@ -21,9 +21,10 @@ WIDTH: Final = 0.3
 class Rods:
     """k capsules, each with the color of a particle.
 
-    atoms shape (k,): indices of these particles others shape (k,): second particles, which must also be shown ways shape (k, 3): from
-    one end to the other starts shape (k, 3): from the particle's center to the first end; None: 0
-
+    atoms    shape (k,): indices of these particles
+    others   shape (k,): second particles, which must also be shown
+    ways     shape (k, 3): from one end to the other
+    starts   shape (k, 3): from the particle's center to the first end; None: 0
     """
 
     atoms: Array

@@ -30,11 +30,11 @@ SKY_RADIUS = 1e6  # relative to the extent; a floor then ends less than a pixel 
 
 @dataclass
 class TachyonScene:
-    """The contents of a file. Lights are lamps, and the background is a ball around everything.
+    """The contents of a file. Tachyon's lights become emitting spheres, and its background becomes a ball around everything.
 
-    scene one SphereArray of spheres and one of cylinders, each in the order of the file settings the file's resolution, otherwise
-    defaults notes what was left out, with line numbers
-
+    scene      one SphereArray of spheres and one of cylinders, each in the order of the file
+    settings   the file's resolution, otherwise defaults
+    notes      what was left out, with line numbers
     """
 
     scene: Scene
