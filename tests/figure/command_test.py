@@ -76,6 +76,25 @@ class Command(unittest.TestCase):
         trails = [[len(rods.atoms) for rods in each.drawn.rods] for _, each in staged(given, Options(size=(48, 32)))]
         self.assertEqual(trails, [[], [30], [30]])
 
+    def test_a_film(self):
+        with unittest.mock.patch.dict(sys.modules, {"imageio_ffmpeg": None}):
+            said = self.call_figure("points.npy", *SMALL, "--frames", "0-2", "-o", "f.mp4", code=2)
+        self.assertIn("needs the module imageio_ffmpeg: pip install imageio", said.replace("imageio_ffmpeg, or", "imageio"))
+        image = importlib.import_module("PIL.Image")
+        self.call_figure("points.npy", *SMALL, "--frames", "0-2", "-o", "f.gif", "-o", "f#.png")
+        film = image.open(self.folder / "f.gif")
+        self.assertEqual((film.n_frames, film.size), (3, (48, 32)))
+        film.seek(2)
+        apart = np.asarray(film.convert("RGB"), int) - np.asarray(image.open(self.folder / "f2.png").convert("RGB"), int)
+        self.assertLess(np.abs(apart).mean(), 4)  # a palette of 256 colors
+
+    def test_a_camera_of_a_file(self):
+        self.call_figure("water.xyz", *SMALL, "--view", "right", "-o", "a.png", "--write-scene", "s.json")
+        self.call_figure("water.xyz", *SMALL, "--camera", "s.json", "-o", "b.png")
+        self.call_figure("water.xyz", *SMALL, "-o", "c.png")
+        same, other = ((self.folder / name).read_bytes() == (self.folder / "a.png").read_bytes() for name in ("b.png", "c.png"))
+        self.assertEqual((same, other), (True, False))
+
     def test_a_written_scene_renders_to_the_same_radiance(self):
         for arguments in (("water.xyz", "--model", "sticks"),
                           ("points.npy", "--vectors", "y,z,x", "--bonds", "0.5", "--floor", "--style", "glossy"),
@@ -119,8 +138,12 @@ class Command(unittest.TestCase):
         for code, words, arguments in (
                 (2, "there is nothing to write", ("water.xyz",)),
                 (2, "must end in .exr, .png, .jpg or .jpeg", ("water.xyz", "-o", "a.bmp")),
-                (2, r"a.GIF: a film is made of pictures: -o a-###.png with .* ffmpeg .* -i a-%03d.png a.GIF",
-                 ("water.xyz", "-o", "a.GIF")),
+                (2, r"a.WEBM: a film is made of pictures: -o a-###.png with .* ffmpeg .* -i a-%03d.png a.WEBM",
+                 ("water.xyz", "-o", "a.WEBM")),
+                (2, "a.gif: only with --frames or --turntable", ("water.xyz", "-o", "a.gif")),
+                (2, "camera = 'water.xyz': must be a scene file, or its part camera", ("water.xyz", "-o", "a.png", "--camera", "water.xyz")),
+                (2, "repeat = .0, 1, 1.: must be at least 1", ("water.xyz", "-o", "a.png", "--repeat", "0,1,1")),
+                (3, "repeat: points.npy has no cell", ("points.npy", "-o", "a.png", "--repeat", "2,1,1")),
                 (6, "its folder nowhere does not exist", ("water.xyz", "-o", "nowhere/a.png")),
                 (2, "named twice, or is water.xyz", ("water.xyz", "-o", "a.png", "-o", "./a.png")),
                 (2, "or is data.png", ("data.png", "-o", "./data.png")),

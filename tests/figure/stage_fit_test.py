@@ -90,6 +90,16 @@ class Fit(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "floor: the camera is below it"):
             layout_of(Particles(centers), radius=radii, floor=True, view="bottom")
 
+    def test_the_best_view_is_along_the_shortest_axis(self):
+        turn, _ = np.linalg.qr(RANDOM.normal(size=(3, 3)))
+        sizes = np.random.default_rng(8).uniform(-1, 1, (4000, 3)) * (5, 2, 1)
+        _, layout = layout_of(Particles(sizes @ turn.T), radius=0.1, view="best")
+        right, above, back = layout.camera.axes()
+        for axis, expected in ((right, turn[:, 0]), (above, turn[:, 1]), (back, turn[:, 2])):
+            self.assertGreater(abs(axis @ expected), 0.995)
+        self.assertGreater(above[2], 0)
+        self.assertGreater(layout.size[0], 1.8 * layout.size[1])
+
     def test_a_given_camera_is_taken(self):
         centers, radii = balls("cloud")
         camera = pt.Camera(position=(9, 0, 0), target=(0, 0, 0), up=(0, 0, 1))

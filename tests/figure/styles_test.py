@@ -64,14 +64,24 @@ class Kinds(unittest.TestCase):
 class Crystals(unittest.TestCase):
     def test_the_cell_has_all_its_corners(self):
         """Rock salt fills a grid of 3 x 3 x 3 places, with 54 bonds between neighbours."""
-        full = completed(salt())
+        full = completed(salt(), Options())
         places = np.array(list(np.ndindex(3, 3, 3))) * 2.82
         np.testing.assert_allclose(sorted(full.positions.tolist()), sorted(places.tolist()), atol=1e-9)
         self.assertEqual(np.bincount(full.elements)[[11, 17]].tolist(), [14, 13])
         drawn = prepare(salt(), styled(salt(), Options(), []))
         self.assertEqual((len(drawn.centers), len(drawn.rods[0].atoms)), (27, 108))
         away = Particles(SALT + 0.7, elements=np.full(8, 6, np.uint8), cell=Cell.of((5.64, 5.64, 5.64)))
-        self.assertIs(completed(away), away)
+        self.assertIs(completed(away, Options()), away)
+        self.assertEqual(len(prepare(salt(), Options(style="crystal", color=np.arange(8.0), radius=1.0)).centers), 8)
+
+    def test_cells_are_repeated(self):
+        drawn = prepare(salt(), Options(style="matte", repeat=(2, 1, 3), box="lines"))
+        self.assertEqual(len(drawn.centers), 48)
+        np.testing.assert_allclose(drawn.cell.vectors, np.diag([11.28, 5.64, 16.92]))
+        apart = np.linalg.norm(drawn.centers[:, None] - drawn.centers, axis=2)
+        self.assertAlmostEqual(float(apart[apart > 0].min()), 2.82)
+        with self.assertRaisesRegex(ValueError, "repeat: color, radius, .* must be no arrays"):
+            prepare(salt(), Options(repeat=(2, 1, 1), radius=np.ones(8)))
 
 
 class Colors(unittest.TestCase):

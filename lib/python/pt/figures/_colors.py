@@ -70,7 +70,7 @@ def srgb(name: str, color: Any) -> RGB:
 
 
 def colors_of(particles: Particles, given: Options, notes: list[str]) -> tuple[Bytes, Legend]:
-    color, picks = given.color, {}
+    color, picks = given.color, dict[str, Any]()
     if isinstance(color, Mapping) or isinstance(color, str) and "=" in color:
         base, types, picks = rules("color", color)
         color = types or base
@@ -141,8 +141,8 @@ def _tinted(particles: Particles, name: str, given: Options, notes: list[str]) -
     if "resname" in particles.columns:
         tinted[~polymers_of(particles)] = own[~polymers_of(particles)]
     if isinstance(legend, Swatches):
-        legend = Swatches(legend.title, legend.names, np.uint8(255.5 + PALE * (legend.colors - 255.0)))
-    return np.uint8(tinted + 0.5), legend
+        legend = Swatches(legend.title, legend.names, (255.5 + PALE * (legend.colors - 255.0)).astype(np.uint8))
+    return (tinted + 0.5).astype(np.uint8), legend
 
 
 def components(particles: Particles, name: str) -> list[str]:

@@ -19,6 +19,7 @@ from pt._files import PICTURES
 from pt._text import tell
 from pt.figures._accept import frames as read_frames, load
 from pt.figures._figure import LEGENDS, Figure, Staged
+from pt.figures._movies import MOVIES, check_movie, write_movie
 from pt.figures._options import Options, two
 from pt.figures._series import frames, turntable
 
@@ -26,8 +27,9 @@ EPILOG = """\
 DATA is a simulation, a molecule or a point cloud. The camera is as close as all balls in the picture permit. Units do not
 matter. Pictures of --frames and --turntable share one camera and one scale. # signs in their names become the number:
   ffmpeg -framerate 25 -i f-%03d.png -pix_fmt yuv420p f.mp4    (after -o f-###.png)
+-o f.gif (by the module Pillow) and -o f.mp4 (by imageio-ffmpeg) hold all pictures of a series.
 """
-FILMS = (".gif", ".mp4", ".webm", ".mov", ".avi", ".mkv")
+FILMS = (".webm", ".mov", ".avi", ".mkv")
 
 
 def refuse(message: str, code: int = USAGE) -> NoReturn:
@@ -97,7 +99,7 @@ def joined(words: list[str]) -> list[str]:
 def check(given: argparse.Namespace) -> None:
     series = given.turntable or given.frames
     pictures = [path for path in given.output if path != "-"]
-    files = [(path, PICTURES) for path in pictures] + [
+    files = [(path, ("gif", "mp4") if path.lower().endswith(MOVIES) else PICTURES) for path in pictures] + [
         (path, formats) for path, formats in ((given.legend, LEGENDS), (given.write_scene, ("json",))) if path]
     if not (given.output or files):
         refuse("-o, --write-scene or --legend is missing: there is nothing to write")
@@ -116,10 +118,15 @@ def check(given: argparse.Namespace) -> None:
         if ending.lower() in FILMS:
             refuse(f"-o {path}: a film is made of pictures: -o {stem}-###.png with --frames or --turntable, and then "
                    f"ffmpeg -framerate 25 -i {stem}-%03d.png {path}")
-        if series and "#" not in os.path.basename(path):
+        is_movie = ending.lower() in MOVIES
+        if is_movie and not series:
+            refuse(f"-o {path}: only with --frames or --turntable")
+        if is_movie:
+            check_movie(path)
+        if series and not is_movie and "#" not in os.path.basename(path):
             refuse(f"-o {path}: for a series the name needs # signs for the number")
-        if given.background == "transparent" and path.lower().endswith((".jpg", ".jpeg")):
-            refuse(f"--background transparent: -o {path}: JPEG has no alpha; .png has")
+        if given.background == "transparent" and path.lower().endswith((".jpg", ".jpeg", *MOVIES)):
+            refuse(f"--background transparent: -o {path}: {'this format' if is_movie else 'JPEG'} has no alpha; .png has")
     if wrong := misnamed(files, given.data):
         refuse(*wrong)
 
@@ -153,6 +160,7 @@ def staged(given: argparse.Namespace, options: Options) -> Any:
 def draw(given: argparse.Namespace, options: Options) -> int:
     context: Context | None = None
     told: set[str] = set()
+    movies: dict[str, list[Any]] = {path: [] for path in given.output if path.lower().endswith(MOVIES)}
     missed = False
     for number, each in staged(given, options):
         if not given.quiet:
@@ -167,20 +175,27 @@ def draw(given: argparse.Namespace, options: Options) -> int:
         if given.output:
             context = context or Context(options.device)
             figure = each.draw(context)
+            for pictures in movies.values():
+                pictures.append(figure.to_srgb8())
             write(figure, number, given)
             missed = missed or (options.error is not None and figure.error_bounds[1] > options.error)
+    for path, pictures in movies.items():
+        write_movie(path, pictures)
+        if not given.quiet:
+            tell("", f"wrote {path}: {len(pictures)} pictures", sys.stdout)
     return TARGET_MISSED if missed else 0
 
 
 def write(figure: Figure, number: int | None, given: argparse.Namespace) -> None:
-    for path in given.output:
+    paths = [path for path in given.output if not path.lower().endswith(MOVIES)]
+    for path in paths:
         if path == "-":
             sys.stdout.buffer.write(figure.encode(given.output_format, bits=given.png_bits))
             sys.stdout.buffer.flush()
         else:
             figure.save(numbered(path, number), bits=given.png_bits)
-    if not given.quiet:
-        names = ", ".join(numbered(path, number) for path in given.output)
+    if paths and not given.quiet:
+        names = ", ".join(numbered(path, number) for path in paths)
         tell("", f"wrote {names}: {figure!r}", None if "-" in given.output else sys.stdout)
 
 
@@ -189,9 +204,9 @@ def main() -> None:
     try:
         options = Options(**{name: value for name, value in vars(given).items() if name in Options.__annotations__
                              and name != "progress"}, progress=Shown("none" if given.quiet else given.progress))
+        check(given)
     except ValueError as error:
         refuse(str(error))
-    check(given)
     try:
         code = draw(given, options)
     except KeyboardInterrupt:

@@ -39,7 +39,7 @@ from pt.figures._radii import opacities_of, radii_of
 from pt.figures._rods import Rods, cell_corners, cell_edges, vectors_of
 from pt.figures._select import chosen
 from pt.figures._stage import EDGES, SURROUND_BRIGHTNESS
-from pt.figures._styles import completed, groups_of, styled
+from pt.figures._styles import completed, groups_of, repeated, styled
 from pt.figures._trails import trails_of
 from pt.figures._tubes import trace_of, tubes_of
 
@@ -105,8 +105,10 @@ def prepare(particles: Particles, options: Options, scale: float | None = None, 
         raise ValueError(f"{particles.name} has no particles")
     if options.wrap:
         particles = particles.wrapped()
+    if options.repeat is not None:
+        particles = repeated(particles, options.repeat, options)
     if options.style == "crystal":
-        particles = completed(particles)
+        particles = completed(particles, options)
     radii = radii_of(particles, options.radius, notes)
     colors, legend = colors_of(particles, options, notes)
     opacities = opacities_of(particles, options.opacity)

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 
@@ -11,7 +11,7 @@ from pt._fit import SIDES, Array, Doubles, Extents, Spin, apex, pyramid, reach
 from pt._scene import Plane
 from pt.figures._options import Direction
 from pt.figures._stage import FLOOR, FLOOR_GAP, Stage, make_stage
-from pt.figures._view import Compass, relative_height, toward_camera, up_vector, view_axes
+from pt.figures._view import Compass, principal_axes, relative_height, toward_camera, up_vector, view_axes
 
 VERTICAL_FOV: Final = 20.0 * math.pi / 180.0
 MARGIN: Final = 0.03  # free fraction of the picture at each side; by taste
@@ -58,7 +58,8 @@ class View:
             world = np.array([compass.right, compass.front, compass.up])
             points = np.broadcast_to(0.0, len(balls.centers))
             height = relative_height(Extents.of(reach(balls.centers, points, world, SIDES)).size)
-        axes = view_axes(toward_camera(view, compass, height), compass)
+        axes = (principal_axes(balls.centers, compass) if view == "best" else
+                view_axes(toward_camera(view, compass, height), compass))
         spin = None
         if turns:
             extents = Extents.of(balls.reach(axes, SIDES))
@@ -134,7 +135,7 @@ class Layout:
                       float(extents.size[2]))
 
 
-def _lens(distance: float, deep: float) -> dict[str, float]:
+def _lens(distance: float, deep: float) -> dict[str, Any]:
     """The far end is blurred to a circle of BLUR of the picture's height."""
     focus = distance - 0.25 * deep
     spread = 1.0 / focus - 1.0 / (distance + 0.5 * deep)

@@ -113,4 +113,5 @@ def _by_tiles(values: Array) -> Doubles:
 def _around(values: Doubles) -> Doubles:
     padded: Any = np.pad(values, 1)
     height, width = values.shape
-    return sum(padded[down:down + height, right:right + width] for down in range(3) for right in range(3))
+    sums: Doubles = sum(padded[down:down + height, right:right + width] for down in range(3) for right in range(3))
+    return sums

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import functools
+import json
 import math
 import textwrap
 from collections.abc import Callable, Mapping, Sequence
@@ -23,7 +24,7 @@ Vectors: TypeAlias = "str | npt.ArrayLike | None"
 Direction: TypeAlias = "str | Sequence[float] | npt.NDArray[Any]"
 Columns: TypeAlias = "Mapping[str, str] | str | None"
 
-VIEWS: Final = ("three-quarter", "front", "back", "left", "right", "top", "bottom")
+VIEWS: Final = ("three-quarter", "front", "back", "left", "right", "top", "bottom", "best")
 STYLES: Final = ("matte", "glossy", "ambient-occlusion", "molecule", "protein", "crystal", "particles", "point-cloud", "galaxy",
                  "soft", "illustrative", "cover")
 MODELS: Final = ("auto", "space-filling", "ball-and-stick", "sticks", "tube")
@@ -45,8 +46,22 @@ def two(separator: str, kind: type) -> Callable[[str], Any]:
     return read
 
 
+def _read_camera(path: Any) -> Camera:
+    try:
+        with open(path, encoding="utf-8") as file:
+            section = json.load(file)
+        return Camera._of_section(section.get("camera", section))
+    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
+        raise ValueError(f"camera = {str(path)!r}: must be a scene file, or its part camera: {error}") from None
+
+
 def _share(text: str) -> float:
     return float(text.removesuffix("%")) / (100.0 if text.endswith("%") else 1.0)
+
+
+def _three(text: str) -> tuple[int, int, int]:
+    first, second, third = map(int, text.split(","))
+    return first, second, third
 
 
 def _stops(text: str) -> float | None:
@@ -72,6 +87,9 @@ class Options:
     where: str | Sequence[str] = _data((), "SELECTION", "shows only these particles: columns with values or comparisons, with and, "
                                        "or, not, parentheses and within, \"resname XK2 or within 5 of (chain A and z > 3)\", "
                                        "\"not water\", \"resid 10-20\". Hidden particles count for ranges of colors and radii")
+    repeat: tuple[int, int, int] | None = _data(
+        None, "A,B,C", "how often the cell is repeated along its edges", read=_three,
+        rule=(lambda counts: min(counts) >= 1, "at least 1"))
     wrap: bool = _data(False, "", "moves particles outside a periodic cell back into the cell")
 
     color: Color = _particles(
@@ -122,12 +140,14 @@ class Options:
 
     size: tuple[int, int] | None = _view(None, "WxH", "pixels, including the color bar. Default: as many as 1024x768, in the "
                                          "shape of the data", read=two("x", int))
-    view: Direction = _view(VIEWS[0], "SIDE|X,Y,Z", f"{', '.join(VIEWS)}, or the direction to the camera")
+    view: Direction = _view(VIEWS[0], "SIDE|X,Y,Z", f"{', '.join(VIEWS)}, or the direction to the camera. best looks along the "
+                            "shortest principal axis, with the longest one across")
     up: Direction = _view("z", "AXIS|X,Y,Z", "upward direction of the data and the picture: x, y, z, -x, -y, -z, or a vector")
     projection: str = _view("perspective", "", "projection of the camera", choices=("perspective", "orthographic"))
     frame_all: bool = _view(False, "", "shows all balls. By default far balls, up to 0.5% but at least one, are left out with a note "
                             "if the other balls then appear 4 times as large")
-    camera: Camera | None = _python(None, "", "camera in the units of the data, instead of view and projection")
+    camera: Any = _view(None, "FILE", "scene file, or its part camera, in the units of the data, instead of view and projection; in "
+                        "Python also a Camera")
 
     style: str = _look("auto", "", "look; auto is molecule, protein, crystal, particles, point-cloud or galaxy, after the data. "
                        "particles and matte are the plain look, ambient-occlusion has only light from all sides, soft also outlines, "
@@ -171,6 +191,8 @@ class Options:
             if holds and value is not None and not holds(value):
                 raise ValueError(f"{each.name} = {value}: must be {words}")
         self._models  # checks it
+        if not isinstance(self.camera, (Camera, type(None))):
+            object.__setattr__(self, "camera", _read_camera(self.camera))
 
     @property
     def reading(self) -> dict[str, Any]:

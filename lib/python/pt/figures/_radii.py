@@ -72,7 +72,9 @@ def _unscaled(particles: Particles, radius: Radius, notes: list[str]) -> Array:
             if particles.elements is None:
                 raise ValueError(f"radius = {radius!r}: {particles.name} has no elements")
             each = _of_elements(particles, particles.elements, radius, notes)
-            return each + each.dtype.type(PROBE) if radius == "solvent-accessible" else each
+            if radius == "solvent-accessible":
+                each = each + each.dtype.type(PROBE)
+            return each
         radius = column(particles, radius)
     if isinstance(radius, Mapping):
         return _of_types(particles, radius)

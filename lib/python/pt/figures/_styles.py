@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import fields, replace
 from typing import Any, Final
 
@@ -83,10 +84,10 @@ def kind_of(particles: Particles, options: Options) -> str:
     return "particles"
 
 
-def completed(particles: Particles) -> Particles:
+def completed(particles: Particles, options: Options) -> Particles:
     """Adds atoms at the opposite walls, so that a crystal's cell has all of its corners. The copies are bonded by distance."""
     cell = particles.cell
-    if cell is None:
+    if cell is None or has_arrays(options):
         return particles
     shares = (particles.positions - cell.origin) @ cell.inverse
     rows, steps = np.arange(len(particles)), np.zeros((len(particles), 3))
@@ -103,10 +104,32 @@ def completed(particles: Particles) -> Particles:
     return result
 
 
+def has_arrays(options: Options) -> bool:
+    """Whether an option has a value for each particle of the data."""
+    values = (options.color, options.radius, options.opacity, options.vectors, options.bonds)
+    return any(not isinstance(value, (str, int, float, Mapping, type(None))) for value in values)
+
+
+def repeated(particles: Particles, counts: tuple[int, int, int], options: Options) -> Particles:
+    """The cell's copies along its edges, which are bonded by distance."""
+    cell = particles.cell
+    if cell is None:
+        raise ValueError(f"repeat: {particles.name} has no cell")
+    if has_arrays(options):
+        raise ValueError("repeat: color, radius, opacity, vectors and bonds must be no arrays")
+    steps = np.array(list(np.ndindex(*counts)), np.float64)
+    rows = np.tile(np.arange(len(particles)), len(steps))
+    result = replace(particles, bonds=None).select(rows)
+    result.positions += np.repeat(steps @ cell.vectors, len(particles), axis=0).astype(result.positions.dtype)
+    result.cell = replace(cell, vectors=cell.vectors * np.array(counts)[:, None])
+    return result
+
+
 def groups_of(particles: Particles) -> Array | None:
     """Numbers of chain and residue, shape (n, 2); None if the data have no chains."""
     if "chain" not in particles.columns:
         return None
     _, chains = np.unique(particles.columns["chain"].astype(str), return_inverse=True)
     residues = particles.columns.get("resid", np.zeros(len(particles), np.int64))
-    return np.stack([chains.reshape(-1), residues.astype(np.int64)], axis=1)
+    groups: Array = np.stack([chains.reshape(-1), residues.astype(np.int64)], axis=1)
+    return groups

@@ -6,8 +6,9 @@ from typing import Final
 
 import numpy as np
 
-from pt._fit import Doubles
+from pt._fit import Array, Doubles
 from pt.figures._options import VIEWS, Direction
+from pt.figures._spread import SAMPLE
 
 # The three-quarter view, by taste. Neither an edge of a box nor its diagonal is along the line of sight. Flat data are seen from higher up.
 AZIMUTH: Final = 30.0
@@ -87,3 +88,15 @@ def view_axes(toward: Doubles, compass: Compass) -> Doubles:
     across = np.cross(forward, compass.up)
     right = compass.right if np.linalg.norm(across) < 1e-6 else unit(across)
     return np.array([right, np.cross(right, forward), forward])
+
+
+def principal_axes(centers: Array, compass: Compass) -> Doubles:
+    """As view_axes. The longest axis is right, the second one up, on the side of the data's up, and the shortest toward the camera, on
+    the side of the three-quarter view."""
+    sample = centers[::max(len(centers) // SAMPLE, 1)].astype(np.float64)
+    spread = sample - sample.mean(axis=0)
+    _, vectors = np.linalg.eigh(spread.T @ spread)
+    toward, above, _ = vectors.T
+    toward = toward * np.copysign(1.0, toward @ toward_camera("three-quarter", compass, 1.0))
+    above = above * np.copysign(1.0, above @ compass.up)
+    return np.array([np.cross(above, toward), above, -toward])
