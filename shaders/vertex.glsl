@@ -17,8 +17,8 @@ struct Arrival {
     uint surface;
 };
 
-// Moves the hit onto the surface. The rounded distance displaces it along the ray, by up to thousands of times the
-// rounding of its coordinates.
+// Moves the hit onto the surface. Rounding of the distance displaces it along the ray by up to thousands of times the
+// rounding of coordinates.
 Vertex vertex_at(Arrival arrival, float time)
 {
     uint surface = arrival.surface;

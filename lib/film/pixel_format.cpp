@@ -33,7 +33,7 @@ std::uint16_t half_bits(float value) {
     const std::uint32_t rest = number & ((1U << dropped) - 1);
     const std::uint32_t half_of_last = 1U << (dropped - 1);
     const bool up = rest > half_of_last || (rest == half_of_last && kept % 2 == 1);
-    // A carry increases the exponent. Beyond the largest number it gives infinity.
+    // A carry increases the exponent. Beyond the largest number the carry gives infinity.
     return static_cast<std::uint16_t>(std::min(kept + (up ? 1U : 0U), half_infinity));
 }
 

@@ -77,7 +77,7 @@ private:
     std::uint32_t sharers_of(std::size_t tile_count, std::uint32_t sample_count) const;
     bool folds_on_host() const;
 
-    // Overlapping dispatches must add atomically.
+    // Overlapping dispatches cannot overwrite, because they add atomically.
     std::uint32_t overwrites(bool part_is_empty) const { return part_is_empty && !overlap_ ? 1 : 0; }
 
     vulkan::Device &device_;

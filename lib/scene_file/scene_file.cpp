@@ -57,8 +57,8 @@ constexpr std::array<std::array<std::string_view, 2>, 6> renamed{{{"camera.targe
                                                                   {"render.height", "film.height"},
                                                                   {"accumulate.sample_count", "render.spp"}}};
 
-// Single spheres with looks and capsules are also arrays (SceneFile::scene()). These arrays come before items with many
-// spheres.
+// Capsules, and single spheres with looks, are also arrays (SceneFile::scene()). These arrays come before items with
+// many spheres.
 JsonPath path_in_arrays(const SceneFile &scene, const BrokenRule &rule) {
     const std::size_t of_spheres = scene.looks.empty() ? 0 : 1;
     const std::size_t of_single = of_spheres + (scene.capsules.empty() ? 0 : 1);

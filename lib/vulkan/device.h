@@ -35,7 +35,7 @@ struct DevicePolicy {
     std::uint32_t queue_depth; // submissions in flight; 2 if the device would idle between them
     // Active waiting before the thread sleeps.
     std::chrono::nanoseconds polling{0};
-    // Rate assumed for the first slice. Every such device achieves it.
+    // Rate assumed for the first slice. All devices of this kind are faster.
     double tests_per_second = 2.5e8;
     // Loops over up to this many surfaces are unrolled. A tree replaces longer loops on CPUs.
     std::uint32_t unrolled = 112;
