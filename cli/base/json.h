@@ -1,4 +1,3 @@
-// Reports as JSON.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -128,8 +128,8 @@ RenderedImage denoised_halves(const RenderOptions &options, const RenderedImage 
     return image;
 }
 
-// If a rule may end the rendering, both halves grow by a half in each round, as in the Python package. Denoising each
-// round gives its error. After a stop the picture of the last round remains.
+// If a rule may end the rendering, each round multiplies the samples of both halves by 1.5, as in the Python package.
+// Denoising each round gives its error. After a stop the picture of the last round remains.
 ImageRender::Result render_halves(const RenderTask &task, ImageRender &render, const Stop &stop) {
     constexpr double growth = 1.5;
     const Clock::time_point start = Clock::now();

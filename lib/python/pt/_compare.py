@@ -49,12 +49,12 @@ def compare(first: Film | Image | npt.ArrayLike, second: Film | Image | npt.Arra
             min_change: float = 1.0, look: int = 0) -> Comparison:
     """Tests whether two images show the same light (shaders/README.md, section 11).
 
-    first, second   films, images (of denoised ones the raw mean) or radiance of shape (height, width, 3), equally
+    first, second   films, images (their raw mean if denoised) or radiance of shape (height, width, 3), equally
                     large. Changes are relative to the second. Images with the same seed and sampler reveal smaller
                     changes
     rate            probability of calling equal light different; 0: 10^-6
     min_change      Light.UNDECIDED if a relative change of all light by this much may be missed
-    look            1, 2, ... for repeated tests of growing images; `rate` is then for all together
+    look            1, 2, ... for repeated tests of growing images; `rate` then holds for all tests together
 
     Raises InvalidArgumentError if the tiles have different sample counts (their means are biased) or the sampler is
     HALTON (its errors are not random), and ValueError for unsuitable shapes."""

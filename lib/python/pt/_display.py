@@ -17,7 +17,7 @@ FIELDS: Final[dict[str, Any]] = dict(structs.pt_display_info._fields_)
 
 
 def automatic_exposure(radiance: npt.ArrayLike) -> float:
-    """Returns the stops, in hundredths, that bring the average to middle grey, 0.18."""
+    """Returns the exposure (stops, rounded to hundredths) that brings the average to middle grey, 0.18."""
     colors = np.ascontiguousarray(radiance, np.float32)
     exposure, loaded = ctypes.c_double(), library()
     checked(loaded, loaded.pt_automatic_exposure(_floats(colors), colors.size // 3, exposure))
@@ -26,7 +26,7 @@ def automatic_exposure(radiance: npt.ArrayLike) -> float:
 
 def to_pixels(radiance: npt.ArrayLike, exposure: float | None, dtype: Any = np.uint8, *,
               alpha: npt.ArrayLike | None = None, **display: Any) -> npt.NDArray[Any]:
-    """Returns sRGB signals of radiance, whose last axis is R, G, B; with alpha, by which it is multiplied, R, G, B, A.
+    """Returns sRGB signals of radiance. The last axis is R, G, B or, with alpha, R, G, B, A. Radiance is multiplied by alpha.
 
     exposure   stops; None: automatic
     dtype      uint8 or uint16

@@ -14,8 +14,8 @@ from pt._library import checked, library
 class Stats:
     """Fields that only a context knows are 0 for a film."""
 
-    sample_count: int  # of the pixel with the fewest
-    max_sample_count: int  # of the pixel with the most (Sampling.ADAPTIVE)
+    sample_count: int  # fewest samples of a pixel
+    max_sample_count: int  # most samples of a pixel (Sampling.ADAPTIVE)
     mean_sample_count: float
     rejected_samples: int  # NaN, infinite, negative or too bright
     features: Feature

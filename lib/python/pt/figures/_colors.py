@@ -26,8 +26,8 @@ PLAIN: Final = "#96aabe"
 # Okabe and Ito 2008, "Color Universal Design". The first two differ most in lightness, too.
 PALETTE: Final = ((0, 114, 178), (230, 159, 0), (0, 158, 115), (213, 94, 0), (86, 180, 233), (204, 121, 167),
                   (240, 228, 66))
-PALE: Final = 0.6  # of the palette's distance from white, for carbon
-TINT: Final = 0.25  # of an element's own color, beside the column's; by taste
+PALE: Final = 0.6  # fraction of the palette's distance from white, for carbon
+TINT: Final = 0.25  # fraction of an element's own color, mixed with the column's; by taste
 MOST_CATEGORIES: Final = 1000
 SKEW: Final = 4.0  # full range divided by the 1% to 99% range; uniform: 1, normal: 2, exponential: 3
 

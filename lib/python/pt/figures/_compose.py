@@ -8,7 +8,7 @@ import numpy.typing as npt
 from pt._fit import Doubles
 from pt.figures._overlay import Shares
 
-FLAT: Final = 0.75  # of the colors without light, in illustrative; by taste
+FLAT: Final = 0.75  # fraction of the colors without light, in the illustrative style; by taste
 
 
 def compose(radiance: npt.NDArray[np.float32], stage: Any, shares: Shares, exposure: float) -> tuple[Doubles, Doubles]:

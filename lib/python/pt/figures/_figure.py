@@ -267,7 +267,6 @@ class Staged:
         return False
 
     def _with_look(self, context: Context, settings: RenderSettings, shares: Shares) -> Shares:
-        """Adds the flat colors and the fading of the style."""
         layout, options = self.layout, self.options
         if options.style == "illustrative":
             context.set_render(settings)

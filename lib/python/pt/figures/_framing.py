@@ -68,8 +68,8 @@ def _hides(cell: Cell, positions: Array, radii: Array) -> bool:
 
 
 def narrow_note(radii: Array, pixels: float, size: tuple[int, int], scale: float) -> str | None:
-    """A note for balls that are narrower than a pixel and together cover little of the picture. `radii` are in scene units, `pixels` per
-    scene unit, and `scale` in scene units per unit of the data."""
+    """A note for balls that are narrower than a pixel and together cover little of the picture. `radii` are in scene units, `pixels` is
+    the number per scene unit, and `scale` is in scene units per unit of the data."""
     if float(radii.min()) >= 0.5 / pixels:
         return None
     halves = radii * pixels

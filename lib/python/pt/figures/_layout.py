@@ -83,7 +83,7 @@ class View:
 
 
 def _shape(extents: Doubles) -> tuple[int, int]:
-    """Multiples of 8 with about PIXELS together. Their ratio follows the extents, up to MOST_ASPECT."""
+    """Returns width and height, multiples of 8 with about PIXELS pixels. Their ratio follows the extents, up to MOST_ASPECT."""
     aspect = min(max(float(extents[0] / extents[1]), 1.0 / MOST_ASPECT), MOST_ASPECT)
     sides = [8 * math.floor(side / 8.0 + 0.5) for side in (math.sqrt(PIXELS * aspect), math.sqrt(PIXELS / aspect))]
     return sides[0], sides[1]
@@ -91,7 +91,7 @@ def _shape(extents: Doubles) -> tuple[int, int]:
 
 @dataclass(frozen=True)
 class Layout:
-    """`distance` goes from the camera to the middle of the contents along the view. Inside the contents, it is half of their extent.
+    """`distance` goes from the camera to the middle of the contents along the view. If the camera is inside, it is half of their extent.
     `deep` is their extent along the view."""
 
     size: tuple[int, int]

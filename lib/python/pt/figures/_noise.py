@@ -20,16 +20,16 @@ MOST_NOISE: Final = 1.5  # steps of 1/255; by taste
 FIRST_SAMPLES: Final = 16  # the fewest with a stated error
 MOST_SAMPLES: Final = 4096
 WORST: Final = 1.5  # largest noise of a neighbourhood, relative to MOST_NOISE; by taste
-SHARE: Final = 1.03  # of the allowed square, at which a round aims: quasi-random samples do better than random ones
-SEQUENCES: Final = 1.0 / math.sqrt(7.0)  # quasi-random points may have this share of the stated error
+SHARE: Final = 1.03  # a round aims at this multiple of the allowed square, because quasi-random samples do better than random ones
+SEQUENCES: Final = 1.0 / math.sqrt(7.0)  # the error of quasi-random points may be this fraction of the stated one
 
 Show = Callable[[Array], Array]
 
 
 @dataclass(frozen=True)
 class Noise:
-    """Root mean square error of the mean of 2 x 2 pixels, where particles are, in steps of 1/255 of the display, and its bounds of 95%
-    confidence. The eye hardly resolves single pixels. Their errors are independent, and twice as large."""
+    """Root mean square error of means of 2 x 2 pixels with particles, in steps of 1/255 of the display, with bounds of 95% confidence.
+    The eye hardly resolves single pixels, whose errors are independent and twice as large."""
 
     rms: float
     low: float
@@ -83,9 +83,8 @@ def until_invisible(context: Context, scene: Scene, camera: Camera, settings: Re
 
 
 def _goals(squares: Doubles, covered: Array, counts: Doubles, noise: Noise) -> Doubles:
-    """Samples of the tiles after the next round. Their sum is the least with which the mean square is small enough; then a tile's
-    number goes as the root of its variance. Each tile takes its variance from its neighbours, too: its own alone would end too soon
-    where it is small by chance."""
+    """Returns the samples of each tile after the next round. The smallest sum that reaches the noise has counts in proportion to the
+    root of the variance. Variances are means over a tile and its neighbours, because one tile's may be small by chance."""
     pixels = _by_tiles(covered | (squares > 0.0))
     variances = _around(_by_tiles(squares) * counts) / np.maximum(_around(pixels), 1.0) * (pixels > 0.0)
     weights = variances * _by_tiles(covered)

@@ -30,8 +30,8 @@ INK: Final = 0.2  # fraction of a shape's color in its outline, in the illustrat
 
 @dataclass(frozen=True)
 class Shares:
-    """Numbers of the pixels from first hits: coverage by shapes and outlines, mean depth of the shapes, and how far they fade. `flat`
-    has colors without light, and None uses the light."""
+    """Values of each pixel from first hits: coverage by shapes and outlines, mean depth of the shapes, and how far they fade. `flat`
+    has colors without light; None: all pixels keep their light."""
 
     shapes: Doubles
     outlines: Doubles

@@ -132,8 +132,8 @@ def _automatic(particles: Particles, notes: list[str]) -> Array:
 
 
 def covalent_factor(particles: Particles) -> float | None:
-    """The factor is 1 for bonded neighbours, and more for noble gases and C-alphas. None without elements, or if distances are not in
-    angstroms."""
+    """Returns a factor for covalent radii: 1 for bonded neighbours, more for noble gases and C-alphas. None without elements, or if
+    distances are not in angstroms."""
     if particles.elements is None:
         return None
     radii = elements.COVALENT_RADII[np.unique(particles.elements)]

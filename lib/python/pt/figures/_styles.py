@@ -16,10 +16,10 @@ from pt.figures._radii import covalent_factor
 from pt.figures._templates import polymers_of
 from pt.figures._tubes import trace_of
 
-MOST_ATOMS: Final = 500  # of a molecule or crystal drawn with bonds; by taste
+MOST_ATOMS: Final = 500  # in a molecule or crystal that is drawn with bonds; by taste
 LEAST_POLYMER: Final = 20  # atoms
 LEAST_POINTS: Final = 1000
-SPACE: Final = 60.0  # cubic angstroms of the cell for each atom, at most, in a crystal
+SPACE: Final = 60.0  # most cubic angstroms per atom in a crystal's cell
 WALL: Final = 1e-3  # distance from a wall, as a share of the edge, at which an atom is also drawn at the opposite wall
 STARS: Final = ("age", "stellar_age", "metallicity", "formation_time")
 
@@ -39,7 +39,7 @@ WORDS: Final = {"molecule": "balls and sticks", "protein": "chains by color, no 
 
 
 def styled(particles: Particles, options: Options, notes: list[str]) -> Options:
-    """Options without style auto, and with the values of their style."""
+    """Replaces style auto, and sets the values of the style."""
     style, kind = options.style, options.style
     if style in ("auto", *LOOKS):
         kind = kind_of(particles, options)
