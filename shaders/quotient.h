@@ -151,7 +151,7 @@ PT_FUNCTION WholeNumber difference(WholeNumber a, WholeNumber b, PT_OUT(uint) bo
     return a;
 }
 
-// Returns |A b - B a| for the sums A of a samples and B of b samples. first_is_less says whether A / a < B / b.
+// Sum A has a samples, and sum B has b samples. Returns |A b - B a|, and whether A / a < B / b.
 PT_FUNCTION WholeNumber weighted_difference(uvec4 sum_a, uint a, uvec4 sum_b, uint b, PT_OUT(bool) first_is_less)
 {
     uint borrow;

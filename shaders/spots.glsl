@@ -77,7 +77,7 @@ MirrorPoint mirror_point_of_plane(Vertex vertex, vec4 lamp, uint surface)
 
 // Alhazen's problem: find the normal that bisects the angle between the directions to the vertex and to the lamp. The
 // iteration starts from a normal that is correct if vertex and lamp are both far from the sphere (the bisector) or both
-// near (by the ratio of heights). Its error raises the variance but causes no bias.
+// near (by the ratio of heights). The iteration's error raises the variance but causes no bias.
 MirrorPoint mirror_point_of_sphere(Vertex vertex, vec4 lamp, uint surface, float time)
 {
     vec4 sphere = ball_of(surface, time).centre_radius;

@@ -1,5 +1,5 @@
-// Records which thread is in a call on a context, because only one may be, and which process made the context, because
-// a forked child does not have the driver's threads.
+// Records which thread is in a call on a context, because only one may be. Also records which process made the context,
+// because a forked child lacks the driver's threads.
 #pragma once
 
 #include "lib/platform/process.h"

@@ -65,7 +65,6 @@ Color scale_of(const pt_display_info &info) {
     return {brightness * (grey / white[0]), brightness * (grey / white[1]), brightness * (grey / white[2])};
 }
 
-// Divides by alpha. For alpha 0 the result is 0.
 float unassociated(float radiance, float alpha) {
     return alpha > 0.0F ? std::min(std::max(radiance, 0.0F) / alpha, std::numeric_limits<float>::max()) : 0.0F;
 }

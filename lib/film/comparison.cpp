@@ -22,7 +22,7 @@ constexpr std::uint32_t least_side = 16;
 constexpr std::uint32_t reported_side = 32; // side of the regions of smallest_tile_change
 
 // Differences up to this fraction of the light count as rounding errors. A lobe 2^x with x >= -100 has an error of up
-// to 100 ln 2 * 18 u from x and 203 u from the power (accuracy.cpp, u = 2^-24). The sum is 8.7e-5.
+// to 100 ln 2 * 18 u + 203 u = 8.7e-5, from x and from the power (accuracy.cpp, u = 2^-24).
 constexpr double rounding_share = 1e-4;
 
 // Bentkus and Dzindzalieta 2015. shaders/README.md, section 11, derives the test.
@@ -201,8 +201,8 @@ public:
     }
 
     // Returns the smallest change, as a fraction of the light, that is found with 99% probability at this rate. If
-    // light changes by the factor 1 + a, noise and events grow by up to the same factor, and the sum of squared
-    // differences grows by a^2 times the sum of squared light.
+    // light changes by the factor 1 + a, noise and events grow by up to this factor. The sum of squared differences
+    // grows by a^2 times the sum of squared light.
     double smallest_change(double rate) const {
         const double worst_skewness = std::max(skewness(-1.0), skewness(1.0));
         const double met = std::min(met_by_first(), met_by_second());

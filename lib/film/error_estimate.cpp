@@ -111,8 +111,8 @@ bool is_check(std::uint64_t sample_count) {
 }
 
 double exaggeration(std::uint32_t sampler) {
-    // The expected square of half the difference between both halves is 2^p - 1 times the squared error
-    // (shaders/README.md, section 11): 1 for random points, and at most 7 for scrambled nets (p = 3, Owen 1997).
+    // E (half the difference of both halves)^2 = (2^p - 1) * squared error (shaders/README.md, section 11). The factor
+    // is 1 for random points, and at most 7 for scrambled nets (p = 3, Owen 1997).
     return sampler == PT_SAMPLER_RANDOM ? 1.0 : std::sqrt(7.0);
 }
 
@@ -133,8 +133,8 @@ void ErrorEstimator::add(const TileErrors &tiles) {
     all_.rejected += tiles.rejected;
 }
 
-// The variance of a sum S of n values is estimated by the sum over tiles of (s - c S / n)^2, where s is the sum of a
-// tile's c values.
+// Let S be the sum of n values, and s the sum of a tile's c values. The variance of S is estimated by the sum of (s - c
+// S / n)^2 over tiles.
 Interval ErrorEstimator::root_mean(const ErrorSquares &squares, double other_squares, bool uncertain) const {
     const bool shows_nothing = squares.sum + other_squares == 0.0;
     if (!std::isfinite(squares.sum) || (shows_nothing && uncertain))

@@ -41,8 +41,8 @@ ErrorEstimate unknown_error();
 
 pt_error_estimate stated(const ErrorEstimate &error);
 
-// Whether rejected samples make the error unknown. They are so bright (FILM_MAX_EXPONENT) that one in 2^20 samples may
-// outweigh all others.
+// Whether rejected samples make the error unknown. Rejected samples are so bright (FILM_MAX_EXPONENT) that one in 2^20
+// may outweigh all others.
 bool hides_error(std::uint64_t rejected_samples, std::uint64_t samples);
 
 // The error is checked at 16 samples, then four times per doubling.

@@ -26,7 +26,6 @@ void add_words(const PartWords<std::uint32_t> &to, const PartWords<const std::ui
 void subtract_words(const PartWords<std::uint32_t> &to, const PartWords<const std::uint32_t> &from,
                     std::size_t pixel_count) noexcept;
 
-// The number of planes in both parts, and with coverage one more.
 constexpr std::size_t film_planes(bool has_coverage) {
     return std::size_t{gpu::FILM_COVERED} + (has_coverage ? 1 : 0);
 }

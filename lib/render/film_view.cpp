@@ -19,7 +19,6 @@ std::vector<DeviceFilm *> FilmView::films(const RenderDevices &devices) {
     return films;
 }
 
-// Returns the fewest bands of whole rows of tiles.
 std::vector<FilmView::Band> FilmView::bands() const {
     const TileGrid grid = home().film().grid();
     const std::uint32_t most = std::max<std::uint32_t>(most_band_pixels / gpu::TILE_SIZE / grid.width, 1);

@@ -10,8 +10,8 @@
 
 namespace pt {
 
-// A hash of a sphere's word decides whether a ray passes the sphere (opacity_generator() of shaders/tree_walk.glsl). A
-// ray would pass all spheres with equal words or none. `ways` has motions or axes, or is empty. `spheres` has scene
+// A hash of a sphere's word decides whether a ray passes the sphere (opacity_generator() of shaders/tree_walk.glsl). So
+// a ray would pass all spheres with equal words or none. `ways` has motions or axes, or is empty. `spheres` has scene
 // indices, so that the result does not depend on the tree.
 void set_coincident_apart(std::span<glm::uvec4> places, std::span<const glm::uvec4> ways,
                           std::span<const std::uint32_t> spheres, WorkProgress &progress);

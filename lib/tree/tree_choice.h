@@ -12,8 +12,8 @@ namespace pt {
 // loops.
 inline constexpr std::uint32_t default_tree_from = 113;
 
-// The same number for scenes with capsules, whose tests take several times as long. lavapipe takes seconds to compile
-// them.
+// The limit if there are capsules, whose tests take several times as long. lavapipe takes seconds to compile these
+// tests.
 inline constexpr std::uint32_t tree_of_others_from = 24;
 
 std::uint32_t tree_pays_from(const SphereSource &spheres);

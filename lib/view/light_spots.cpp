@@ -15,7 +15,8 @@ namespace {
 constexpr double largest_glow_height = 0.2; // a fraction of the farthest plane's height
 constexpr double least_glow_height = 1.5;   // multiple of the lamp's radius
 constexpr double least_glow_diffuse = 0.35;
-// A mirror image is worth a ray if it is bright and small. Its width is 1 / glossiness plus the width of the lamp.
+// A mirror image is worth a ray if it is bright and small. The image's width is 1 / glossiness plus the width of the
+// lamp.
 constexpr double least_image_specular = 0.45;
 constexpr double widest_image = 0.02;
 

@@ -2,9 +2,9 @@
  * pt: denoising by Open Image Denoise, with the error of the denoised picture.
  *
  * pt_denoise filters two images of one scene, which have different seeds and equally many samples. The result lies
- * between their mean and the filtered images (shaders/README.md, section 11). No value leaves the range of both images
- * within the 3 x 3 pixels about it. The mean of a channel moves by at most its standard error. Values stay unfiltered
- * where the expected error of 32 x 32 pixels would rise.
+ * between the mean of both and the filtered images (shaders/README.md, section 11). No value leaves the range of both
+ * images within the 3 x 3 pixels about it. The mean of a channel moves by at most its standard error. Values stay
+ * unfiltered where the expected error of 32 x 32 pixels would rise.
  */
 #ifndef PT_DENOISE_H
 #define PT_DENOISE_H

@@ -111,13 +111,12 @@ enum {
  *
  * Spheres that float32 cannot separate, as seen from the camera, are merged into the first one in the scene. So are
  * planes. Two spheres are merged if
- * - their radii differ by less than 2^-18 of the radius, and
- * - their centers differ by less than 2^-18 of the radius plus 2^-21 of the distance, and by less than a quarter of the
- *   radius.
+ * - their radii differ by less than 2^-18 * radius, and
+ * - their centers differ by less than 2^-18 * radius + 2^-21 * distance, and by less than radius / 4.
  *
- * Spheres in a tree (PT_FEATURE_TREE) are merged only if the tree stores equal numbers for them. If the camera is
- * outside such a sphere but nearer to its surface than 2^-22 of the radius plus 2^-28 of the extent of all spheres in
- * the tree, it may see the inside of the sphere. */
+ * Spheres in a tree (PT_FEATURE_TREE) are merged only if the tree stores equal numbers for them. A camera outside such
+ * a sphere may see its inside if the distance from the surface is below 2^-22 * radius + 2^-28 * extent of all spheres
+ * in the tree. */
 typedef struct pt_sphere {
     double center[3]; /**< at time 0 */
     double radius;    /**< > 0 */
@@ -162,7 +161,7 @@ typedef struct pt_sphere_array {
     /** x, y, z of a second center. Each sphere then becomes a capsule: all points no farther than the radius from the
      * segment between center and end. FLOAT32 or FLOAT64; default none. A capsule that emits or moves gives
      * PT_ERROR_INVALID_SCENE. If length + radius exceeds the distance from the camera, the surface is off by up to
-     * 2^-21 of length + radius. */
+     * 2^-21 * (length + radius). */
     pt_column end;
     /** Probability in [0, 1] that a ray hits the sphere. Otherwise the ray passes through it. Every ray, also a shadow
      * ray, decides at random for each sphere. So the mean fraction of light that passes several spheres is the product

@@ -62,9 +62,9 @@ enum {
 
 /** The image's error, estimated without a reference (shaders/README.md, section 11).
  *
- * rmse is the root of the mean of (x - r)^2 over pixels and channels, where r is the limit of the image x.
- * relative_rmse is the root of the mean of (x - r)^2 / (r^2 + 0.01). The bounds hold with 95% confidence. Light that no
- * sample has found is not included, except small lamps in view.
+ * rmse = sqrt(mean of (x - r)^2) over pixels and channels, where r is the limit of the image x. relative_rmse =
+ * sqrt(mean of (x - r)^2 / (r^2 + 0.01)). The bounds hold with 95% confidence. Light that no sample has found is not
+ * included, except small lamps in view.
  *
  * With fewer than 16 samples, or if more than one sample in 2^20 was left out, the error is unknown: lower bounds are
  * 0, the other values INFINITY. */

@@ -50,8 +50,8 @@ struct pt_vulkan {
 
 /** A buffer of the caller's device into which a kernel writes an image.
  *
- * - Memory: The buffer has VK_BUFFER_USAGE_STORAGE_BUFFER_BIT and memory of any type. It belongs to pt_vulkan's queue
- *   family unless it is VK_SHARING_MODE_CONCURRENT.
+ * - Memory: The buffer has VK_BUFFER_USAGE_STORAGE_BUFFER_BIT and memory of any type. The buffer belongs to pt_vulkan's
+ *   queue family unless it is VK_SHARING_MODE_CONCURRENT.
  * - Before: The caller's earlier accesses to the memory must have ended, or wait_semaphore must be signalled after
  *   them. The signal operation must already be submitted. The kernel waits for the semaphore in
  *   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT.
