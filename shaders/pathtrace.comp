@@ -32,7 +32,7 @@ void add_sample(FrameConstants held, inout FilmPixel gathered, vec3 radiance)
     film_add(gathered, traced_sample(radiance * held.film_scale));
 }
 
-// Takes samples done to end - 1.
+// Takes samples `done` to `end` - 1.
 void take_samples(uvec2 pixel, uint pixel_index, uint done, uint end, inout FilmPixel gathered)
 {
     FrameConstants held = frame;

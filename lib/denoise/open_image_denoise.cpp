@@ -83,7 +83,7 @@ pt_result result_of(int error) {
     }
 }
 
-// A null device means errors of device creation.
+// With a null device, reports errors of device creation.
 void require_success(const Library &library, void *device) {
     const char *message = nullptr;
     const int error = library.get_device_error(device, &message);

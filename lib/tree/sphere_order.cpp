@@ -114,7 +114,7 @@ Part *next_of(std::span<Part> parts, std::uint32_t depth) {
 }
 
 // Divides a node's parts until there are enough children. Cuts of few spheres, of spheres with one common center, or
-// into equal halves can separate twins, so twins are removed before.
+// into equal halves can separate twins, so twins are removed first.
 Children children_of(Part node, const Making &making, std::uint32_t depth) {
     Children children;
     if (node.items.size() <= tree_width || node.centres.is_point() || depth == free_depth)

@@ -12,7 +12,7 @@ namespace pt {
 // loops.
 inline constexpr std::uint32_t default_tree_from = 113;
 
-// The limit if there are capsules, whose tests take several times as long. lavapipe takes seconds to compile these
+// The same limit if there are capsules, whose tests take several times as long. lavapipe takes seconds to compile these
 // tests.
 inline constexpr std::uint32_t tree_of_others_from = 24;
 

@@ -73,7 +73,7 @@ void remove_abandoned(const fs::path &path) {
     DeleteFileW(path.c_str());
 }
 
-// Renames the file while it is open, so that no other process can remove it before.
+// Renames the file while it is open, so that no other process can remove it first.
 bool rename_written(int descriptor, const fs::path &from, const fs::path &to) {
     static_cast<void>(from);
     const std::wstring name = fs::absolute(to).make_preferred().wstring();
