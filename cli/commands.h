@@ -1,4 +1,3 @@
-// Each function adds a command with its options.
 #pragma once
 
 #include "cli/base/options.h"

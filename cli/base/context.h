@@ -47,7 +47,6 @@ std::string in_words_of_options(const BrokenRule &rule);
 // Without a context, returns the thread's last error.
 LibraryError last_error(const pt_context *context);
 
-// For calls without a context.
 inline void require(pt_result result) {
     if (result < 0)
         throw Failure(exit_code_of(result), pt_last_error(nullptr));
@@ -84,7 +83,6 @@ public:
         require(pt_reload_shaders(context_));
     }
 
-    // For calls whose failures do not depend on the user's input.
     void require(pt_result result) const {
         if (result < 0)
             fail(result, last_error());

@@ -67,7 +67,6 @@ CLI::Option *add_quiet(CLI::App &command, bool &quiet);
 
 std::shared_ptr<CLI::Formatter> help_formatter();
 
-// Returns CLI11's message in this program's words.
 std::string usage_reason(const CLI::App &program, const CLI::ParseError &error);
 
 std::vector<std::string> command_names(const CLI::App &program);

@@ -111,7 +111,7 @@ struct DecodedImage {
     std::uint32_t full_height;
     bool is_float; // otherwise integers scaled to [0, 1]
     std::vector<std::string> channels;
-    std::vector<float> values; // pixel by pixel, from the top left
+    std::vector<float> values;
     std::vector<ImageAttribute> attributes;
 
     // Three values per pixel. A single channel is repeated. An empty name means the main layer. Throws

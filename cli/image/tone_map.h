@@ -13,7 +13,7 @@
 
 namespace cli {
 
-// The exposure is a known number.
+// display.exposure is known, even if it is automatic.
 struct ToneMap {
     pt_display_info display;
     bool is_automatic = false;
@@ -33,8 +33,8 @@ void add_tone_map(std::vector<ImageAttribute> &attributes, const ToneMap &tone_m
 
 std::string automatic_exposure_line(const std::optional<ToneMap> &tone_map);
 
-// `radiance` has R, G, B, not negative, multiplied by alpha. `alpha` has one number per pixel, or is empty. After a
-// failure an existing file is unchanged. Throws Failure(ExitCode::file).
+// `radiance` has R, G, B, not negative, multiplied by alpha. `alpha` has one number per pixel, or is empty. Fails as
+// ImageWriter::write() does.
 void write_display_image(ImageWriter &writer, const ImageTarget &target, ImageData image,
                          std::span<const float> radiance, const ToneMap &tone_map, std::span<const float> alpha = {});
 

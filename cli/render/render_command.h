@@ -28,7 +28,7 @@ struct RenderTimes {
 ExitCode render_picture(const Context &context, const RenderTask &task, const RenderTimes &times,
                         const Stop &superseded);
 
-// Returns the exit code. Throws Failure.
+// Throws Failure.
 int run_render(const RenderOptions &options);
 
 // Counts validation messages, which show mistakes of the program or the library.

@@ -21,7 +21,7 @@ bool is_lit(const SceneFile &scene) {
     return std::ranges::any_of(scene.used_materials, [&](std::uint32_t i) { return emits(scene.materials[i]); });
 }
 
-// The largest of three channels. At normal incidence a lobe reflects its whole weight.
+// At normal incidence a lobe reflects its whole weight.
 float reflected_share(const pt_material &material) {
     float largest = 0.0F;
     for (std::size_t i = 0; i < 3; ++i)

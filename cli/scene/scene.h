@@ -29,7 +29,6 @@ SceneFile read_scene_file(const std::string &path, std::vector<SceneOverride> ov
 
 void load_columns(SceneFile &scene);
 
-// For commands without a scene file.
 pt_display_info display_of(const std::vector<SceneOverride> &overrides);
 
 // Names the option that sets the field, unless the scene sets the field.

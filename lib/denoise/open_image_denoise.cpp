@@ -83,7 +83,7 @@ pt_result result_of(int error) {
     }
 }
 
-// With a null device, reports errors of device creation.
+// Reports errors of device creation if `device` is NULL.
 void require_success(const Library &library, void *device) {
     const char *message = nullptr;
     const int error = library.get_device_error(device, &message);

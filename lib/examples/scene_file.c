@@ -62,7 +62,7 @@ static pt_result render(pt_context *context, const pt_scene_file *file, float **
     return result < 0 ? result : pt_readback(context, &image);
 }
 
-/* Returns 1 if the file is complete. PFM has the bottom row first; -1 in its header means little-endian. */
+/* PFM has the bottom row first; -1 in its header means little-endian. */
 static int write_pfm(const char *path, const float *pixels, const pt_render *settings) {
     const size_t row_numbers = (size_t)settings->width * 3;
     FILE *file = fopen(path, "wb");

@@ -41,7 +41,7 @@ class ErrorEstimate:
     rmse: float  # in units of radiance
     rmse_low: float
     rmse_high: float
-    relative_rmse: float  # 0.01 is 1%
+    relative_rmse: float
     relative_rmse_low: float
     relative_rmse_high: float
     uncertain: Uncertain
