@@ -215,8 +215,8 @@ Material material_to_leave(uint surface, uint vertex_count)
     return SAMPLE_LAMPS && SKY_COUNT + PLANES_EMIT == 0u && last ? at_last_direction(material) : material;
 }
 
-// Extends the path from a vertex beyond the first. begin is the first block of its random numbers. material_to_leave()
-// gets the path length as_vertex.
+// Extends the path from a vertex beyond the first. begin is the first block of its random numbers. as_vertex is the
+// path length for material_to_leave().
 void extend(inout Path path, SampleKey key, uint begin, uint as_vertex, float time)
 {
     Vertex vertex = vertex_at(path.arrival, time);

@@ -51,8 +51,8 @@ struct RenderedImage {
     std::vector<float> raw{};      // mean of the samples before denoising
     std::vector<PictureLayer> layers{};
     std::uint32_t rows_done = 0; // rows with samples
-    pt_stats stats{};            // of the finished rows
-    pt_error_estimate error{};   // of the finished rows
+    pt_stats stats{};            // finished rows only
+    pt_error_estimate error{};   // finished rows only
 };
 
 } // namespace cli

@@ -17,8 +17,8 @@ namespace {
 
 using Items = std::vector<pt::TreeItem>;
 
-// Coordinates below 4 are rounded by 2^-23, and sides of boxes by 2^-22. The error of half the surface is 2^-21 times
-// the sum of the sides, which is below 15.
+// Coordinates below 4 are rounded by 2^-23, and sides of boxes by 2^-22. Half the surface has the error 2^-21 * (sum of
+// the sides) < 2^-21 * 15.
 constexpr double surface_error = 15 * 0x1p-21;
 
 pt::Part part_of(Items &items) {

@@ -97,8 +97,8 @@ TEST(LampChoice, FollowsTheStatedProbability) {
     expect_stated_probabilities(few);
 }
 
-// Nine tenths of the choices have weights of radiance (r / d)^2 min(1, (n . v + r) / d). One tenth is spread evenly
-// over the lamps partly above the horizon.
+// Nine tenths of the choices have the weights radiance * (r / d)^2 * min(1, (n . v + r) / d). One tenth is spread
+// evenly over the lamps partly above the horizon.
 TEST(LampChoice, HasTheDocumentedProbability) {
     const std::vector<Drawn> drawn = draw(uneven_lamps, {}, 9, 64);
     std::vector<double> weights;

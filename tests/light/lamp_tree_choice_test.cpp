@@ -176,8 +176,8 @@ TEST(LampTreeChoice, FollowsTheStatedProbability) {
     }
 }
 
-// Returns sum (w^2 / P) / (sum w)^2 - 1. The value is 0 if P is proportional to w. A tenth of even choices adds at most
-// 1 / 9, and choices by power alone have 9.
+// Returns sum (w^2 / P) / (sum w)^2 - 1. The value is 0 if P is proportional to w, at most 1 / 9 if a tenth of the
+// choices is uniform, and 9 for choices by power alone.
 double relative_variance(TreeProbe &probe, const pt::GpuScene &scene, const TreeVertex &vertex) {
     const std::vector<double> weights = lamp_weights(scene, vertex);
     const std::vector<double> probabilities = probe.probabilities(vertex);

@@ -83,7 +83,7 @@ def toward_camera(view: Direction, compass: Compass, height: float) -> Doubles:
 
 
 def view_axes(toward: Doubles, compass: Compass) -> Doubles:
-    """Rows are right, up and forward, with right x up = -forward. If the view is along up, the compass gives right."""
+    """Rows are right, up and forward, with right x up = -forward. If the view is along up, right comes from the compass."""
     forward = -toward
     across = np.cross(forward, compass.up)
     right = compass.right if np.linalg.norm(across) < 1e-6 else unit(across)

@@ -24,7 +24,7 @@ export class PathView {
     this.request();
   }
 
-  // Another pixel is held, or none.
+  // Called when another pixel is held, or none.
   changes(held) {
     this.trace = undefined;
     $("path").hidden ||= !held;
