@@ -82,7 +82,7 @@ class Command(unittest.TestCase):
         self.assertIn("needs the module imageio_ffmpeg: pip install imageio", said.replace("imageio_ffmpeg, or", "imageio"))
         image = importlib.import_module("PIL.Image")
         self.call_figure("points.npy", *SMALL, "--frames", "0-2", "-o", "f.gif", "-o", "f#.png")
-        film = image.open(self.folder / "f.gif")
+        film = self.enterContext(image.open(self.folder / "f.gif"))
         self.assertEqual((film.n_frames, film.size), (3, (48, 32)))
         film.seek(2)
         apart = np.asarray(film.convert("RGB"), int) - np.asarray(image.open(self.folder / "f2.png").convert("RGB"), int)

@@ -57,16 +57,17 @@ def linear(signal: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
     return np.where(signal <= 0.04045, signal / 12.92, ((signal + 0.055) / 1.055)**2.4)
 
 
-def encode_png(pixels: npt.NDArray[Any]) -> bytes:
+def encode_png(pixels: npt.NDArray[Any], dpi: float | None = None) -> bytes:
     """Encodes uint8 or uint16 pixels of shape (height, width, 3), or 4 with alpha (W3C, "Portable Network Graphics (PNG)
-    Specification", 2003)."""
+    Specification", 2003). dpi: pixels per inch that the file states."""
     height, width, channels = pixels.shape
     big_endian = np.ascontiguousarray(pixels, pixels.dtype.newbyteorder(">"))
     unfiltered = np.zeros((height, 1), np.uint8)
     rows = np.hstack([unfiltered, big_endian.view(np.uint8).reshape(height, -1)])
     kind = {3: 2, 4: 6}[channels]
     header = struct.pack(">IIBBBBB", width, height, 8 * pixels.itemsize, kind, 0, 0, 0)
-    return (b"\x89PNG\r\n\x1a\n" + _chunk(b"IHDR", header) + _chunk(b"sRGB", b"\0") +
+    per_meter = b"" if dpi is None else _chunk(b"pHYs", struct.pack(">IIB", *2 * [round(dpi / 0.0254)], 1))
+    return (b"\x89PNG\r\n\x1a\n" + _chunk(b"IHDR", header) + _chunk(b"sRGB", b"\0") + per_meter +
             _chunk(b"IDAT", zlib.compress(rows.tobytes())) + _chunk(b"IEND", b""))
 
 

@@ -30,7 +30,8 @@ from pt.figures._compose import compose, lay_over
 from pt.figures._files import encode_jpeg, write_scene
 from pt.figures._framing import drawn_cell, far_away, narrow_note
 from pt.figures._layout import Balls, Layout, View
-from pt.figures._legend import raster, save
+from pt.figures._legend import PIXELS_PER_INCH, font_of, raster, save
+from pt.figures._marks import with_scale_bar
 from pt.figures._noise import Noise, squares_of, until_invisible
 from pt.figures._options import Options, described
 from pt.figures._overlay import INK, Overlaid, Shares, line_width, pixels_per_length, rays_per_side, read_shares
@@ -198,13 +199,26 @@ def _in_range(positions: Array, radii: Array, cell: Cell | None, scale: float | 
 
 def view_of(drawn: Drawn, options: Options, turns: bool = False) -> View:
     size = options.size
+    if options.pixel_width is not None:
+        size = _printed_size(drawn, options, turns)
     if size is not None and options.colorbar and drawn.legend is not None:
-        size = size[0] - _strip_width(raster(drawn.legend, size[1], WORDS), size[1]), size[1]
+        size = size[0] - _strip_of(drawn.legend, size[1], options), size[1]
         if size[0] < LEAST_WIDTH:
             raise ValueError(f"size = {options.size}: has no room for particles beside the color bar")
     if options.camera is not None:
         return View.through(options.camera, options.up, size or (1024, 768), drawn.scale)
     return View.of(drawn.balls, options.view, options.up, options.projection, size, turns)
+
+
+def _printed_size(drawn: Drawn, options: Options, turns: bool) -> tuple[int, int]:
+    """The height follows from the shape of the data beside the color bar."""
+    assert options.pixel_width is not None
+    shape = (1024, 768) if options.camera else View.of(drawn.balls, options.view, options.up, options.projection, None, turns).size
+    height = 0
+    for _ in range(4 if options.colorbar and drawn.legend is not None else 1):
+        strip = _strip_of(drawn.legend, height, options) if height else 0
+        height = max(round((options.pixel_width - strip) * shape[1] / shape[0]), LEAST_WIDTH)
+    return options.pixel_width, height
 
 
 @dataclass(frozen=True)
@@ -349,7 +363,7 @@ class Figure(Image):
         options = self._staged.options
         if not options.colorbar or self.legend is None:
             return width, height
-        return options.size or (width + _strip_width(raster(self.legend, height, WORDS), height), height)
+        return options.size or (width + _strip_of(self.legend, height, options), height)
 
     def to_srgb8(self, exposure: float | None = None, **display: Any) -> npt.NDArray[np.uint8]:
         """Returns sRGB, shape (height, width, 3), or 4 channels with a transparent background. exposure: stops; None:
@@ -362,6 +376,10 @@ class Figure(Image):
         options = self._staged.options
         background, ink = _background(options.background)
         pixels = _pixels(self.radiance, self._stage, self._shares, exposure, background, dtype, **display)
+        if options.scale_bar is not None:
+            dpi = options.printed_dpi or PIXELS_PER_INCH
+            pixels = with_scale_bar(pixels, options.scale_bar, self.camera, self._staged.drawn.scale, ink, dpi,
+                                    font_of(len(pixels), options.font_size))
         if options.colorbar and self.legend is not None:
             strip = self._strip(len(pixels), background, ink)
             pixels = np.hstack([pixels, np.floor(np.iinfo(dtype).max * strip + 0.5).astype(dtype)])
@@ -369,7 +387,7 @@ class Figure(Image):
 
     def _strip(self, height: int, background: Doubles | None, ink: str) -> Doubles:
         width = self.picture_size[0] - self.shape[1]
-        words = raster(self.legend, height, ink)[:height, :width]
+        words = _lettered(self.legend, height, ink, self._staged.options)[:height, :width]
         strip = np.zeros((height, width, 4))
         top, left = (height - len(words)) // 2, (width - words.shape[1]) // 2
         strip[top:top + len(words), left:left + words.shape[1]] = words
@@ -386,10 +404,10 @@ class Figure(Image):
         if format in ("jpg", "jpeg"):
             if self._staged.options.background == "transparent":
                 raise ValueError("background = transparent: JPEG has no alpha; PNG has")
-            return encode_jpeg(self.picture(np.uint8, exposure))
+            return encode_jpeg(self.picture(np.uint8, exposure), self._staged.options.printed_dpi)
         if format != "png" or bits not in (8, 16):
             raise ValueError(f"format = {format!r}, bits = {bits}: must be png, jpg or exr, of 8 bits, or of 16 in a png")
-        return encode_png(self.picture(np.uint8 if bits == 8 else np.uint16, exposure))
+        return encode_png(self.picture(np.uint8 if bits == 8 else np.uint16, exposure), self._staged.options.printed_dpi)
 
     def save(self, path: Path, *, exposure: float | None = None, bits: int = 8) -> None:
         """Writes the picture (.png, .jpg) or the linear radiance (.exr, .npy) atomically. Raises ValueError for another
@@ -437,8 +455,12 @@ def _sixteen_bits(options: Options, stage: Any, shares: Shares, radiance: Array)
     return _pixels(radiance, stage, shares, exposure, np.ones(3) if background is None else background, np.uint16)
 
 
-def _strip_width(words: Doubles, height: int) -> int:
-    return words.shape[1] + 2 * max(8, round(0.025 * height))
+def _lettered(legend: Legend, height: int, ink: str, options: Options) -> Doubles:
+    return raster(legend, height, ink, options.printed_dpi or PIXELS_PER_INCH, options.font_size)
+
+
+def _strip_of(legend: Legend, height: int, options: Options) -> int:
+    return _lettered(legend, height, WORDS, options).shape[1] + 2 * max(8, round(0.025 * height))
 
 
 P = ParamSpec("P")

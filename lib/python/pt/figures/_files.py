@@ -16,9 +16,10 @@ from pt.figures._errors import module
 from pt.figures._options import Options
 
 
-def encode_jpeg(pixels: npt.NDArray[np.uint8]) -> bytes:
+def encode_jpeg(pixels: npt.NDArray[np.uint8], dpi: float | None = None) -> bytes:
     buffer = io.BytesIO()
-    module("PIL.Image", "JPEG").fromarray(pixels).save(buffer, "JPEG", quality=95, subsampling=0)
+    module("PIL.Image", "JPEG").fromarray(pixels).save(buffer, "JPEG", quality=95, subsampling=0,
+                                                  **({"dpi": (dpi, dpi)} if dpi else {}))
     return buffer.getvalue()
 
 

@@ -62,10 +62,14 @@ def save(legend: Legend, file: Any, format: str) -> None:
                                                    metadata=dates.get(format))
 
 
-def raster(legend: Legend, height: int, ink: Any) -> npt.NDArray[np.float64]:
-    font = max(9.0, 0.02 * height * POINTS_PER_INCH / PIXELS_PER_INCH)
+def font_of(height: int, font: float | None) -> float:
+    return font or max(9.0, 0.02 * height * POINTS_PER_INCH / PIXELS_PER_INCH)
+
+
+def raster(legend: Legend, height: int, ink: Any, dpi: float = PIXELS_PER_INCH, font: float | None = None
+           ) -> npt.NDArray[np.float64]:
     buffer = io.BytesIO()
-    draw(legend, 0.62 * height / PIXELS_PER_INCH, font, ink).savefig(
-        buffer, format="png", dpi=PIXELS_PER_INCH, bbox_inches="tight", pad_inches=0.0, transparent=True)
+    draw(legend, 0.62 * height / dpi, font_of(height, font), ink).savefig(
+        buffer, format="png", dpi=dpi, bbox_inches="tight", pad_inches=0.0, transparent=True)
     buffer.seek(0)
     return np.asarray(_matplotlib("image").imread(buffer), np.float64)

@@ -3,6 +3,7 @@ from __future__ import annotations
 import functools
 import json
 import math
+import re
 import textwrap
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import Field, dataclass, field, fields
@@ -28,6 +29,8 @@ VIEWS: Final = ("three-quarter", "front", "back", "left", "right", "top", "botto
 STYLES: Final = ("matte", "glossy", "ambient-occlusion", "molecule", "protein", "crystal", "particles", "point-cloud", "galaxy",
                  "soft", "illustrative", "cover")
 MODELS: Final = ("auto", "space-filling", "ball-and-stick", "sticks", "tube")
+DPI: Final = 300.0
+UNITS: Final = {"in": 1.0, "cm": 2.54, "mm": 25.4, "pt": 72.0}  # per inch
 SAMPLES: Final = 128
 DRAFT_SAMPLES: Final = 8
 MOST_SAMPLES: Final = 65536
@@ -140,6 +143,15 @@ class Options:
 
     size: tuple[int, int] | None = _view(None, "WxH", "pixels, including the color bar. Default: as many as 1024x768, in the "
                                          "shape of the data", read=two("x", int))
+    width: str | float | None = _view(None, "LENGTH", "width of the whole picture on paper, 8.5cm, 85mm or 3.35in (in Python also inches), "
+                                      "instead of a size; the height follows from the data")
+    dpi: float | None = _view(None, "N", "pixels per inch, which .png and .jpg state. Default: 300 with a width", read=float,
+                              rule=(lambda dpi: 1.0 <= dpi <= 10000.0, "from 1 to 10000"))
+    font_size: float | None = _view(None, "POINTS", "size of the words at this dpi, 7 or 7pt. Default: a fiftieth of the height",
+                                    read=lambda text: float(text.removesuffix("pt")),
+                                    rule=(lambda points: 0.0 < points < 1000.0, "> 0 and < 1000"))
+    scale_bar: str | float | None = _view(None, "LENGTH", "draws a bar of this length in units of the data, 10 or \"10 nm\"; only "
+                                          "orthographic, because in perspective lengths depend on the depth")
     view: Direction = _view(VIEWS[0], "SIDE|X,Y,Z", f"{', '.join(VIEWS)}, or the direction to the camera. best looks along the "
                             "shortest principal axis, with the longest one across")
     up: Direction = _view("z", "AXIS|X,Y,Z", "upward direction of the data and the picture: x, y, z, -x, -y, -z, or a vector")
@@ -193,6 +205,25 @@ class Options:
         self._models  # checks it
         if not isinstance(self.camera, (Camera, type(None))):
             object.__setattr__(self, "camera", _read_camera(self.camera))
+        if self.pixel_width and self.size:
+            raise ValueError("width: must not be given with size")
+        if self.scale_bar is not None and (self.projection != "orthographic" if self.camera is None else
+                                           self.camera.vertical_extent is None):
+            raise ValueError("scale_bar: must have an orthographic projection: in perspective lengths depend on the depth")
+
+    @property
+    def pixel_width(self) -> int | None:
+        if self.width is None:
+            return None
+        found = re.fullmatch(r"\s*([\d.]+)\s*(cm|mm|in|pt)?\s*", str(self.width))
+        pixels = round(float(found[1]) / UNITS[found[2] or "in"] * (self.dpi or DPI)) if found else 0
+        if not 16 <= pixels <= 65536:
+            raise ValueError(f"width = {self.width!r}: must be like 8.5cm, with 16 to 65536 pixels")
+        return pixels
+
+    @property
+    def printed_dpi(self) -> float | None:
+        return self.dpi or (None if self.width is None else DPI)
 
     @property
     def reading(self) -> dict[str, Any]:
