@@ -1,5 +1,3 @@
-"""Scenes whose errors are hard to estimate."""
-
 import math
 import random
 

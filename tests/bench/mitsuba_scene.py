@@ -1,4 +1,4 @@
-"""Translates scene files for Mitsuba 3. Planes become rectangles."""
+"""Translates scene files for Mitsuba 3."""
 
 import math
 import resource

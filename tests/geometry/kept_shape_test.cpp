@@ -20,7 +20,7 @@ namespace {
 using namespace heap_tree;
 using Spheres = std::vector<pt_sphere>;
 
-constexpr std::size_t ball_count = 2000; // The balls lie in [-1, 1]^3 with a spacing of 0.16.
+constexpr std::size_t ball_count = 2000;
 
 Spheres moved(Spheres spheres, double by) {
     std::mt19937 engine(29);

@@ -1,4 +1,4 @@
-// Numbers and types of the binary interface must never change. tests/abi/struct_layout.txt has the sizes.
+// Numbers and types of the binary interface must never change.
 #include <pt/accuracy.h>
 #include <pt/async.h>
 #include <pt/compare.h>

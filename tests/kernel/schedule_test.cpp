@@ -113,7 +113,6 @@ struct DeviceCase {
     double on_target;
 };
 
-// Doubling from 2^14 paths to the largest slice takes fewer than 20 slices.
 constexpr std::size_t warm_up = 20;
 
 double share_on_target(const std::vector<Step> &steps, const pt::ScheduleLimits &limits) {

@@ -165,7 +165,6 @@ TEST(SamplerShifts, AreOneInEachPixelAndDimension) {
         }
 }
 
-// Halton's points are uneven over pixels. A correlation of 3% is detected.
 TEST(SamplerChecks, NegativeControls) {
     Request request;
     request.pixel_count = 1U << 18;

@@ -1,4 +1,4 @@
-// An instance and a device without pt.h. If the validation layer reports anything, the test fails.
+// If the validation layer reports anything, the test fails.
 #pragma once
 
 #include "lib/vulkan/device.h"
