@@ -64,7 +64,7 @@ PT_FUNCTION real around(real mean, ValueSet tile, real median_beside, real large
     return more_of(more_of(median_beside, of_brighter), mean_besides_and_without_largest(tile, mean));
 }
 
-// The estimated limit of a pixel, by whose square relative squared errors are divided (shaders/README.md, section 11).
+// The estimated limit of a pixel. Relative squared errors are divided by its square (shaders/README.md, section 11).
 //
 // At an edge the surroundings are bright, but at least half of the samples are dark. Let samples have the value M with
 // probability p, otherwise 0, and let exactly one of N samples have had the value M. Then the mean is T = M / N, the

@@ -45,8 +45,8 @@ struct ValidationLog {
 
 pt_create_info render_create_info(const RenderOptions &options, ValidationLog &log);
 
-// Renders again on one context whenever a source changes, until a signal. A signal while it waits gives 0. Throws
-// Failure if no edit of a source could help.
+// Renders again on one context whenever a source changes, until a signal. Returns 0 after a signal while it waits.
+// Throws Failure if no edit of a source could help.
 int render_watched(const RenderOptions &options, ValidationLog &log);
 
 } // namespace cli

@@ -49,7 +49,7 @@ struct ErrorSquares {
     double sum = 0.0;              // infinite if unknown
     double of_pixels = 0.0;        // sum of squares of pixels' sums
     double of_tiles = 0.0;         // sum of squares of tiles' sums
-    double times_tile_sizes = 0.0; // sum of tiles' sums times their numbers of values
+    double times_tile_sizes = 0.0; // sum over tiles of sum * number of values
 };
 
 struct TileErrors {

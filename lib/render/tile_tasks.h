@@ -29,7 +29,7 @@ public:
 
     bool empty() const { return tasks_.empty(); }
 
-    // Whether only some tiles of the present task have begun its next samples.
+    // Whether only some tiles of the present task have begun the task's next samples.
     bool is_within_samples() const { return !empty() && tasks_.back().next_tile > 0; }
 
     TileSlice next(const Schedule &schedule);

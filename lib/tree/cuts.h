@@ -6,7 +6,7 @@
 
 namespace pt {
 
-// Returns the halves with the least sum of surface times expected nodes (Wald 2007). Cuts are between bins along the
+// Returns the halves with the least sum of surface * expected nodes (Wald 2007). Cuts are between bins along the
 // longest axis. The centers must not all be equal. Spheres with equal centers stay together.
 Halves binned_halves(const Part &part);
 

@@ -38,8 +38,8 @@ struct TreeShape {
 using SphereBits = std::array<std::uint32_t, 10>;
 using BitsOfSphere = std::function<SphereBits(std::uint32_t)>;
 
-// Cuts nodes where the sum of surface times expected nodes is least (Goldsmith and Salmon 1987; Wald 2007). Deep nodes
-// are cut into equal halves, so the depth is at most 27 for 2^26 spheres. Each item is a unit of work.
+// Cuts nodes where the sum of surface * expected nodes is least (Goldsmith and Salmon 1987; Wald 2007). Deep nodes are
+// cut into equal halves, so the depth is at most 27 for 2^26 spheres. Each item is a unit of work.
 TreeShape tree_shape(std::vector<TreeItem> items, const BitsOfSphere &bits_of, WorkProgress &progress);
 
 } // namespace pt

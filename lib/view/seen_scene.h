@@ -57,7 +57,7 @@ SeenScene seen_scene(const Scene &scene, const Camera &camera);
 // Throws PT_ERROR_UNSUPPORTED if a nearly flat sphere moves too far. `camera` is the start of rays (ray_start.h).
 void require_held_motions(const SeenScene &seen, const Scene &scene, const Camera &camera);
 
-// As divides_start() of balls (lib/scene/moving_ball.h).
+// Like divides_start() for balls (lib/scene/moving_ball.h).
 bool divides_start(const CurvedPlane &flat, const Camera &camera);
 
 } // namespace pt
