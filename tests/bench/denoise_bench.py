@@ -46,7 +46,6 @@ def pixels(renderer, quantity=0):
 
 
 def pt_round(name, seed, add):
-    """Calls add(option, count, seconds, image) for each image of pt. Returns the guides."""
     scene = load_scene(name)
     with SceneRenderer(scene) as renderer:
         def sample(count, seed):

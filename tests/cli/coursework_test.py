@@ -43,7 +43,6 @@ class Coursework(CommandLineTest):
         self.expect(0, "course", "kernels")
 
     def each_kernel(self, apply):
-        """Applies one difference after another, and calls `apply` after each one."""
         for difference in DIFFERENCES:
             subprocess.run(["patch", "-s", "--fuzz=0", "-p1", "-d", self.path("kernels"), "-i",
                             os.path.join(COURSE, f"{difference}.diff")], check=True)

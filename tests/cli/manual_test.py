@@ -91,7 +91,6 @@ class RealDevice(CommandLineTest):
             self.assertEqual(example, shipped.read())
 
     def run_small(self, words, size="32x16"):
-        """Runs a page's command with a smaller picture. Returns the files that it names."""
         if "--watch" in words:
             return set()
         if "--size" in words:

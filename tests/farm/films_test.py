@@ -27,7 +27,7 @@ from pt.farm._part import Part
 from pt.farm._sum import Sum, write_film
 from pictures import CAMERA, GLOSSY, SCENE
 
-SETTINGS = pt.RenderSettings(136, 100)  # smaller tiles at the edges
+SETTINGS = pt.RenderSettings(136, 100)
 JOB = farm.Job(SCENE, CAMERA, SETTINGS)
 SAMPLES, ERROR = 256, 0.006
 QUICK = farm.Options(part_seconds=0.1, patience=0.5)

@@ -30,7 +30,6 @@ def staged_of(projection, size, **options):
 
 
 def rays(camera, size):
-    """The arrays have the shape (rows, columns, 3)."""
     right, above, back = camera.axes()
     rows, columns = np.indices((size[1] * PER_SIDE, size[0] * PER_SIDE)) + 0.5
     x, y = 2 * columns / columns.shape[1] - 1, 1 - 2 * rows / rows.shape[0]

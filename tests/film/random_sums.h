@@ -62,7 +62,6 @@ public:
         const std::uint32_t first = count(UINT32_MAX - 1);
         const std::uint32_t second = count(UINT32_MAX - first);
         ResolvedPixel pixel{{{{sum(first), sum(first), sum(first)}, first}, {{sum(second), 0, 0}, second}}};
-        // The means are nearly equal, so their difference cancels.
         const pt::WideSum nearly = pixel.parts[0].sums[1] / first * second;
         pixel.parts[1].sums[1] = nearly + kind_(generator_) % 2;
         pixel.parts[1].sums[2] = sum(second);

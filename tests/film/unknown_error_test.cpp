@@ -73,7 +73,6 @@ TEST_F(UnknownError, WhileALobeIsHardlyMetByChance) {
     }
 }
 
-// Returns the radius of a lamp at distance 10.
 double lamp_of(double pixels) {
     return 10.0 * 2.0 * std::tan(0.5) / height * std::sqrt(pixels / 3.14159);
 }

@@ -1,4 +1,3 @@
-// Hidden lamps, walls and shells in random scenes are in tests/light/random_light_test.cpp.
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/support/image_target.h"

@@ -8,7 +8,6 @@ PAGES += [*(ROOT / "tests").glob("*/**/*.md"), *(ROOT / "lib").glob("*/*.md")]
 CURRENT = [page for page in PAGES if page.name not in ("CHANGELOG.md", "NOTEBOOK.md")]
 CODE = re.compile(r"\.(h|c|cpp|glsl|comp|diff|py|json|csv|cmake|sh)$|^CMakeLists\.txt$")
 
-# The largest numbers of words of each page, and of all pages without the changes.
 MOST_WORDS = {"README.md": 1220, "CONTRIBUTING.md": 1300, "cli/README.md": 4500, "shaders/README.md": 5850,
               "shaders/COURSEWORK.md": 1150, "tests/bench/README.md": 1200}
 MOST_WORDS_IN_ALL = 22_000

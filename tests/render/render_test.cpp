@@ -1,4 +1,3 @@
-// The images of other renderers are described in tests/reference/README.md.
 #include "tests/render/reference_image.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"

@@ -32,7 +32,6 @@ inline void add_lamp(pt::Scene &scene, const glm::dvec3 &center, double radius, 
     scene.spheres.push_back({center, radius, motion, static_cast<std::uint32_t>(scene.materials.size() - 1)});
 }
 
-// The powers of the lamps span this many decades.
 inline pt::Scene in_a_box(std::uint32_t count, double decades, double motion = 0.0) {
     std::mt19937 generator(7);
     std::uniform_real_distribution<double> unit(0.0, 1.0);

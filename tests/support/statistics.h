@@ -9,7 +9,7 @@
 
 namespace statistics {
 
-// Returns z with P(N(0, 1) > z) = probability, by bisection.
+// Returns z with P(N(0, 1) > z) = probability.
 inline double normal_quantile(double probability) {
     double low = 0.0;
     double high = 40.0;
