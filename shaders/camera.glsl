@@ -19,13 +19,13 @@ vec2 image_place(CameraView camera, uvec2 pixel, vec2 place)
 
 vec3 camera_direction(CameraView camera, vec2 from_middle)
 {
-    if (ORTHOGRAPHIC == 1)
+    if (PROJECTION == PROJECTION_ORTHOGRAPHIC)
         return camera.forward;
     return normalize(camera.forward + from_middle.x * camera.right - from_middle.y * camera.up);
 }
 
 // Rays start at the pinhole. With STARTS_AHEAD they start on the plane through the origin perpendicular to the view. No
-// surface in view is before this plane (lib/view/ray_start.h).
+// surface in view is before this plane (lib/view/projection.h).
 vec3 camera_origin(CameraView camera, vec2 from_middle)
 {
     if (STARTS_AHEAD == 0)

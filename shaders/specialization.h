@@ -30,8 +30,8 @@ PT_SPECIALIZED(PLANES_EMIT, 16, 1)
 PT_SPECIALIZED(SKY_COUNT, 17, 0)        // emitting spheres around the camera
 PT_SPECIALIZED(KNOWN_SIDES, 18, 0)      // 1: paths stay on the camera's side of each surface
 PT_SPECIALIZED(CLOSE_LAMPS, 20, 1)      // 1: a lamp nearly coincides with another sphere (twins.h)
-PT_SPECIALIZED(STARTS_AHEAD, 21, 1)     // 1: camera rays start on a plane (ray_start.h)
-PT_SPECIALIZED(ORTHOGRAPHIC, 29, 0)
+PT_SPECIALIZED(STARTS_AHEAD, 21, 1)     // 1: camera rays start on a plane (projection.h)
+PT_SPECIALIZED(PROJECTION, 29, 0)      // PROJECTION_*
 PT_SPECIALIZED(LENS, 39, 0)
 PT_SPECIALIZED(LAMP_TREE_LEVELS, 25, 0) // levels below the top; 0: no lamp tree
 PT_SPECIALIZED(LAMP_TREE_WORDS, 26, 0)
@@ -67,7 +67,7 @@ const uint CONSTANT_SCENE_WORDS = 64;
 #undef PT_SPECIALIZED
 
 #ifndef __cplusplus
-const bool STARTS_ON_DISC = ORTHOGRAPHIC + LENS > 0; // camera rays start at different points
+const bool STARTS_ON_DISC = PROJECTION + LENS > 0; // camera rays start at different points
 const uint CAMERA_BLOCKS = 1u + LENS;                // blocks of a camera ray
 #endif
 

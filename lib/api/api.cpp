@@ -8,6 +8,7 @@
 #include "lib/kernel/accuracy.h"
 #include "lib/render/image.h"
 #include "lib/render/renderer.h"
+#include "lib/view/camera_rules.h"
 
 #include <pt/async.h>
 #include <pt/errors.h>

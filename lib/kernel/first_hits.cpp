@@ -15,12 +15,12 @@ FirstHits::FirstHits(vulkan::Device &device, std::span<const std::uint32_t> code
 
 void FirstHits::read(const BoundScene &bound, const FirstHitQuery &query, double tests_per_submission,
                      const Receive &receive) {
-    auto fitted = specialization_constants(bound.scene.features);
+    auto fitted = specialization_constants(bound.view.features);
     set_device_constants(fitted, device_);
     kernel_.fit(fitted);
     const std::uint32_t rays = gpu::rays_of_pixel(query.quantity);
     const std::uint64_t total = query.pixels.pixel_count();
-    const std::uint64_t most = kernel_.pixels_at_once(total, rays, rays_for(tests_per_submission, bound.scene));
+    const std::uint64_t most = kernel_.pixels_at_once(total, rays, rays_for(tests_per_submission, bound.view));
     const std::uint64_t bytes_of_pixel = pixel_bytes(query.format);
     if (!results_ || results_->room() < most * bytes_of_pixel) {
         results_.reset();
@@ -28,8 +28,8 @@ void FirstHits::read(const BoundScene &bound, const FirstHitQuery &query, double
     }
     const vulkan::DescriptorSet set = kernel_.bind(bound, {results_->pixels(), results_->findings()});
     gpu::FirstHitConstants constants{};
-    constants.camera = bound.scene.frame.camera;
-    constants.start_distance = static_cast<float>(bound.scene.start_distance);
+    constants.camera = bound.view.frame.camera;
+    constants.start_distance = static_cast<float>(bound.view.start_distance);
     constants.quantity = query.quantity;
     constants.format = query.format;
     constants.first_pixel = query.pixels.y * constants.camera.width + query.pixels.x;

@@ -60,22 +60,22 @@ std::vector<PixelRange> pixels_of_tiles(const TileGrid &grid, std::span<const st
 } // namespace
 
 Kernel::Kernel(vulkan::Device &device, TracePipelines &pipelines, DeviceFilm &film, const vulkan::Buffer *tree,
-               std::shared_ptr<const GpuScene> scene, const RenderSettings &settings) :
+               std::shared_ptr<const View> view, const RenderSettings &settings) :
     device_(device),
     pipelines_(pipelines),
     film_(film),
-    gpu_scene_(std::move(scene)),
+    view_(std::move(view)),
     layout_(pt::point_layout(features())),
     table_bytes_(device.limits().max_uniform_range),
     max_dispatch_samples_(samples_of_dispatch(device, features(), layout_, table_bytes_)),
     overlap_(device.policy().invocations > 0),
-    scene_(device, vulkan::BufferUse::UniformOrStorage, checked_scene_bytes(device, gpu_scene_->words.size()), "scene"),
+    scene_(device, vulkan::BufferUse::UniformOrStorage, checked_scene_bytes(device, view_->words.size()), "scene"),
     tree_(tree),
     points_(device, vulkan::BufferUse::Streamed,
             std::uint64_t{table_bytes_} * (layout_.row_blocks() > 0 ? max_tables * device.policy().queue_depth : 1),
             "points of a slice"),
     tile_lists_(device, film.grid()) {
-    show(gpu_scene_, settings);
+    show(view_, settings);
 }
 
 void Kernel::bind_film(const vulkan::ComputePipeline &trace) {
@@ -83,34 +83,33 @@ void Kernel::bind_film(const vulkan::ComputePipeline &trace) {
         return;
     std::vector<vulkan::DescriptorSet> sets; // sets_ stays empty after a failure
     for (const DeviceFilm::Strip &strip : film_.strips()) {
-        std::vector<vulkan::BufferRange> ranges = scene_ranges(*gpu_scene_, scene_, tree_);
+        std::vector<vulkan::BufferRange> ranges = scene_ranges(*view_, scene_, tree_);
         ranges.insert(ranges.end(), {strip.words, points_, tile_lists_.buffer()});
         sets.push_back(trace.bind(ranges));
     }
     sets_ = std::move(sets);
 }
 
-bool Kernel::can_show(const GpuScene &scene) const {
-    return scene.features == features() && scene.words.size() == gpu_scene_->words.size() &&
-           scene.tree == gpu_scene_->tree;
+bool Kernel::can_show(const View &view) const {
+    return view.features == features() && view.words.size() == view_->words.size() && view.tree == view_->tree;
 }
 
-void Kernel::show(std::shared_ptr<const GpuScene> scene, const RenderSettings &settings) {
-    gpu_scene_ = std::move(scene);
+void Kernel::show(std::shared_ptr<const View> view, const RenderSettings &settings) {
+    view_ = std::move(view);
     seed_ = settings.seed;
-    frame_ = gpu_scene_->frame;
+    frame_ = view_->frame;
     frame_.film_first_pixel = settings.first_row * settings.width;
     scene_is_old_ = true;
     seconds_ = 0.0;
 }
 
 void Kernel::build(TracePipelines &pipelines) const {
-    pipelines.trace(features(), gpu_scene_->words, seconds_);
+    pipelines.trace(features(), view_->words, seconds_);
     pipelines.fold();
 }
 
 void Kernel::dispatch_nothing() {
-    const std::array pipelines = {&pipelines_.trace(features(), gpu_scene_->words, seconds_), &pipelines_.fold()};
+    const std::array pipelines = {&pipelines_.trace(features(), view_->words, seconds_), &pipelines_.fold()};
     bind_film(*pipelines.front());
     device_.submit([&](const vk::raii::CommandBuffer &commands) {
         for (const vulkan::ComputePipeline *pipeline : pipelines)
@@ -189,24 +188,24 @@ void Kernel::dispatch(const vk::raii::CommandBuffer &commands, const vulkan::Com
 
 void Kernel::upload_scene() {
     if (scene_is_old_)
-        scene_.upload(std::as_bytes(std::span(gpu_scene_->words)), 0);
+        scene_.upload(std::as_bytes(std::span(view_->words)), 0);
     scene_is_old_ = false;
 }
 
 BoundScene Kernel::bound_scene() {
     upload_scene();
-    return {*gpu_scene_, scene_ranges(*gpu_scene_, scene_, tree_)};
+    return {*view_, scene_ranges(*view_, scene_, tree_)};
 }
 
 vulkan::Device::Ticket Kernel::start(const TileSlice &slice, bool on_cleared_film, const Behind &behind) {
     const std::vector<Batch> batches = slice.takes ? next_batches(slice) : std::vector<Batch>();
     upload_points(batches);
-    if (gpu_scene_->words.size() * sizeof(glm::vec4) > vulkan::max_recorded_bytes)
+    if (view_->words.size() * sizeof(glm::vec4) > vulkan::max_recorded_bytes)
         upload_scene();
     const vulkan::ComputePipeline &fold = pipelines_.fold();
     bind_film(fold);
     const vulkan::ComputePipeline *const trace =
-        batches.empty() ? nullptr : &pipelines_.trace(features(), gpu_scene_->words, seconds_);
+        batches.empty() ? nullptr : &pipelines_.trace(features(), view_->words, seconds_);
     gpu::FrameConstants frame = frame_;
     frame.first_entry = tile_lists_.first_entry(slice.tiles);
     const FilmPart kept = split_of(slice.before) < slice.split() ? older_part : newer_part;
@@ -216,7 +215,7 @@ vulkan::Device::Ticket Kernel::start(const TileSlice &slice, bool on_cleared_fil
         slice.moves_split() && refills && folds_on_host() && host_fold.fold(pixels_of_tiles(film_.grid(), slice.tiles));
     const vulkan::Device::Ticket ticket = device_.start([&](const vk::raii::CommandBuffer &commands) {
         if (scene_is_old_)
-            scene_.write(commands, std::as_bytes(std::span(gpu_scene_->words)));
+            scene_.write(commands, std::as_bytes(std::span(view_->words)));
         if (on_cleared_film)
             film_.clear(commands);
         if (scene_is_old_ || on_cleared_film)

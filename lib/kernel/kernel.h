@@ -7,8 +7,8 @@
 #include "lib/kernel/trace_pipelines.h"
 #include "lib/points/point_sequence.h"
 #include "lib/scene/render_settings.h"
-#include "lib/view/gpu_scene.h"
 #include "lib/view/scene_features.h"
+#include "lib/view/view.h"
 #include "lib/vulkan/compute_pipeline.h"
 #include "lib/vulkan/device.h"
 #include "shaders/gpu_layout.h"
@@ -26,14 +26,14 @@ class Kernel {
 public:
     // Throws PT_ERROR_UNSUPPORTED if the device is too small for the scene.
     Kernel(vulkan::Device &device, TracePipelines &pipelines, DeviceFilm &film, const vulkan::Buffer *tree,
-           std::shared_ptr<const GpuScene> scene, const RenderSettings &settings);
+           std::shared_ptr<const View> view, const RenderSettings &settings);
 
-    const Features &features() const { return gpu_scene_->features; }
+    const Features &features() const { return view_->features; }
 
-    // show() needs a scene with the same features. No work may be running.
-    const GpuScene &scene() const { return *gpu_scene_; }
-    bool can_show(const GpuScene &scene) const;
-    void show(std::shared_ptr<const GpuScene> scene, const RenderSettings &settings);
+    // show() needs a view with the same features. No work may be running.
+    const View &view() const { return *view_; }
+    bool can_show(const View &view) const;
+    void show(std::shared_ptr<const View> view, const RenderSettings &settings);
 
     // The scene's buffers for other kernels. No work may be running.
     BoundScene bound_scene();
@@ -83,7 +83,7 @@ private:
     vulkan::Device &device_;
     TracePipelines &pipelines_;
     DeviceFilm &film_;
-    std::shared_ptr<const GpuScene> gpu_scene_;
+    std::shared_ptr<const View> view_;
     PointLayout layout_;
     std::uint64_t seed_;
     gpu::FrameConstants frame_;

@@ -19,15 +19,15 @@ std::vector<vulkan::Binding> with_scene_bindings(std::initializer_list<vulkan::B
     return bindings;
 }
 
-std::vector<vulkan::BufferRange> scene_ranges(const GpuScene &scene, const vulkan::Buffer &words,
+std::vector<vulkan::BufferRange> scene_ranges(const View &view, const vulkan::Buffer &words,
                                               const vulkan::Buffer *tree) {
     if (!tree)
         return {words, words, {words.handle(), 0, vulkan::texel_bytes}, {words.handle(), 0, vulkan::texel_bytes}};
-    const std::uint64_t node_bytes = scene.tree->node_words().size_bytes();
+    const std::uint64_t node_bytes = view.tree->node_words().size_bytes();
     return {words,
             words,
             {tree->handle(), 0, node_bytes},
-            {tree->handle(), node_bytes, scene.tree->sphere_words().size_bytes()}};
+            {tree->handle(), node_bytes, view.tree->sphere_words().size_bytes()}};
 }
 
 SceneKernel::SceneKernel(vulkan::Device &device, std::span<const std::uint32_t> code,
@@ -66,8 +66,8 @@ std::uint64_t SceneKernel::pixels_at_once(std::uint64_t pixels, std::uint32_t ra
     return std::min({std::max<std::uint64_t>(affordable, gpu::WORKGROUP_SIZE), dispatched, most, pixels});
 }
 
-double rays_for(double tests, const GpuScene &scene) {
-    return std::clamp(tests / surface_tests_per_ray(scene.features, scene.tree.get()), 1.0, 0x1p48);
+double rays_for(double tests, const View &view) {
+    return std::clamp(tests / surface_tests_per_ray(view.features, view.tree.get()), 1.0, 0x1p48);
 }
 
 void require_all_met(std::uint32_t lost_pixels) {

@@ -1,7 +1,7 @@
 // A kernel that reads the scene, except the path tracer.
 #pragma once
 
-#include "lib/view/gpu_scene.h"
+#include "lib/view/view.h"
 #include "lib/vulkan/compute_pipeline.h"
 #include "lib/vulkan/device.h"
 
@@ -15,11 +15,11 @@
 namespace pt {
 
 std::vector<vulkan::Binding> with_scene_bindings(std::initializer_list<vulkan::Binding> further);
-std::vector<vulkan::BufferRange> scene_ranges(const GpuScene &scene, const vulkan::Buffer &words,
+std::vector<vulkan::BufferRange> scene_ranges(const View &view, const vulkan::Buffer &words,
                                               const vulkan::Buffer *tree);
 
 struct BoundScene {
-    const GpuScene &scene;
+    const View &view;
     std::vector<vulkan::BufferRange> ranges;
 };
 
@@ -46,7 +46,7 @@ private:
 };
 
 // Returns the number of rays that take about this many tests together, at least 1.
-double rays_for(double tests, const GpuScene &scene);
+double rays_for(double tests, const View &view);
 
 void require_all_met(std::uint32_t lost_pixels);
 

@@ -40,7 +40,7 @@ ENUMERATIONS = (
 OF_PROGRAM = {"PT_SAMPLER_": ("samplers", "-"), "PT_SAMPLING_": ("samplings", "-"), "PT_ESTIMATOR_": ("estimators", "-"),
               "PT_PROJECTION_": ("projections", "-"), "PT_CURVE_": ("curves", "-"), "PT_FEATURE_": ("features", "_"),
               "PT_UNCERTAIN_": ("uncertainties", "_")}
-OF_KERNELS = ("PT_ESTIMATOR_", "PT_SAMPLER_", "PT_QUANTITY_", "PT_FORMAT_")
+OF_KERNELS = ("PT_PROJECTION_", "PT_ESTIMATOR_", "PT_SAMPLER_", "PT_QUANTITY_", "PT_FORMAT_")
 
 NUMBERS = {"float": "c_float", "double": "c_double", "char": "c_char", "int32_t": "c_int32", "uint32_t": "c_uint32",
            "int64_t": "c_int64", "uint64_t": "c_uint64", "uint8_t": "c_uint8"}

@@ -1,5 +1,7 @@
 #include "lib/render/film_identity.h"
 
+#include "lib/view/camera_rules.h"
+
 #include <algorithm>
 #include <cmath>
 #include <set>

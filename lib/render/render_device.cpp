@@ -68,7 +68,7 @@ std::unique_ptr<TracePipelines> RenderDevice::make_pipelines(const KernelCode &c
 
 void RenderDevice::drop_kernel() noexcept {
     if (kernel_) {
-        const double tests_per_path = surface_tests_per_path(kernel_->features(), kernel_->scene().tree.get());
+        const double tests_per_path = surface_tests_per_path(kernel_->features(), kernel_->view().tree.get());
         const double learnt = schedule_->budget() * tests_per_path / target_seconds_;
         tests_per_second_ = std::max(tests_per_second_, learnt * share_assumed_of_learnt);
     }
@@ -102,18 +102,18 @@ void RenderDevice::save_kernels() noexcept {
         device_.pipeline_cache().save(device_.log());
 }
 
-void RenderDevice::prepare(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings) {
+void RenderDevice::prepare(const std::shared_ptr<const View> &view, const RenderSettings &settings) {
     pipelines_->build_own(TracePipelines::OwnKernels::when_they_pay);
-    if (kernel_ && &kernel_->scene() == scene.get())
+    if (kernel_ && &kernel_->view() == view.get())
         return;
-    if (kernel_ && kernel_->can_show(*scene)) {
-        kernel_->show(scene, settings);
+    if (kernel_ && kernel_->can_show(*view)) {
+        kernel_->show(view, settings);
         return;
     }
     drop_kernel();
-    plant(scene->tree);
-    kernel_.emplace(device_, *pipelines_, *film_, tree_buffer_ ? &*tree_buffer_ : nullptr, scene, settings);
-    const double tests_per_path = surface_tests_per_path(kernel_->features(), scene->tree.get());
+    plant(view->tree);
+    kernel_.emplace(device_, *pipelines_, *film_, tree_buffer_ ? &*tree_buffer_ : nullptr, view, settings);
+    const double tests_per_path = surface_tests_per_path(kernel_->features(), view->tree.get());
     schedule_.emplace(ScheduleLimits{.target_seconds = target_seconds_,
                                      .first_slice_paths = target_seconds_ * tests_per_second_ / tests_per_path,
                                      .max_samples = kernel_->max_samples()});
@@ -141,8 +141,8 @@ void RenderDevice::plant(const std::shared_ptr<const SphereTree> &tree) {
     tree_ = tree;
 }
 
-void RenderDevice::prepare_ahead(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings) {
-    prepare(scene, settings);
+void RenderDevice::prepare_ahead(const std::shared_ptr<const View> &view, const RenderSettings &settings) {
+    prepare(view, settings);
     pipelines_->build_own(TracePipelines::OwnKernels::at_once);
     kernel_->build(*pipelines_);
     kernel_->dispatch_nothing();
@@ -181,9 +181,9 @@ BufferWriter &RenderDevice::buffer_writer() {
 }
 
 // The path tracer's kernel owns the scene's buffers and checks whether the device has room for them.
-void RenderDevice::read_first_hits(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings,
+void RenderDevice::read_first_hits(const std::shared_ptr<const View> &view, const RenderSettings &settings,
                                    const FirstHitQuery &query, const FirstHits::Receive &receive) {
-    prepare(scene, settings);
+    prepare(view, settings);
     if (!first_hits_)
         first_hits_.emplace(device_, code_.first_hit);
     first_hits_->read(kernel_->bound_scene(), query, target_seconds_ * tests_per_second_, receive);

@@ -13,7 +13,7 @@
 #include "lib/kernel/trace_pipelines.h"
 #include "lib/render/schedule.h"
 #include "lib/scene/render_settings.h"
-#include "lib/view/gpu_scene.h"
+#include "lib/view/view.h"
 #include "lib/vulkan/device.h"
 #include "lib/vulkan/instance.h"
 
@@ -46,7 +46,7 @@ public:
     ErrorReader &error_reader();
 
     // No work may be running.
-    void read_first_hits(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings,
+    void read_first_hits(const std::shared_ptr<const View> &view, const RenderSettings &settings,
                          const FirstHitQuery &query, const FirstHits::Receive &receive);
 
     ResolvePipelines &resolve_pipelines();
@@ -66,11 +66,11 @@ public:
     std::unique_ptr<TracePipelines> make_pipelines(const KernelCode &code);
     void set_pipelines(const KernelCode &code, std::unique_ptr<TracePipelines> pipelines) noexcept;
 
-    // Makes a kernel for this scene, or uses the present kernel if it suits the scene. Needs a film. No work may be
+    // Makes a kernel for this view, or uses the present kernel if it suits the view. Needs a film. No work may be
     // running.
-    void prepare(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings);
+    void prepare(const std::shared_ptr<const View> &view, const RenderSettings &settings);
 
-    void prepare_ahead(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings);
+    void prepare_ahead(const std::shared_ptr<const View> &view, const RenderSettings &settings);
 
     // Builds everything that start() needs until the next prepare(), because pt_poll must not build.
     void prepare_for_polls(bool with_errors);

@@ -2,7 +2,7 @@
 
 #include "lib/base/error.h"
 #include "lib/kernel/accuracy.h"
-#include "lib/view/gpu_scene.h"
+#include "lib/view/view.h"
 #include "lib/vulkan/device_choice.h"
 
 #include <algorithm>
@@ -78,7 +78,7 @@ void Renderer::discard_samples() noexcept {
         device->discard_samples();
     round_ = {};
     samples_.clear();
-    view_.forget_samples();
+    film_view_.forget_samples();
     samples_for_lamps_.clear();
     forget_error();
 }
@@ -88,7 +88,7 @@ void Renderer::set_scene(CheckedScene scene, WorkProgress &progress) {
     PreparedScene prepared(std::move(scene), tree_from_, scene_ ? &*scene_ : nullptr, progress);
     progress.finish();
     discard_samples();
-    gpu_scene_.reset();
+    view_.reset();
     small_lamps_.reset();
     scene_ = std::move(prepared);
 }
@@ -96,7 +96,7 @@ void Renderer::set_scene(CheckedScene scene, WorkProgress &progress) {
 void Renderer::set_camera(const Camera &camera) {
     require_alive();
     discard_samples();
-    gpu_scene_.reset();
+    view_.reset();
     small_lamps_.reset();
     camera_ = camera;
 }
@@ -110,12 +110,12 @@ void Renderer::set_render(const RenderSettings &settings) {
         std::vector<DeviceFilm> films;
         for (const auto &device : devices_)
             films.push_back(device->make_film(settings));
-        view_.drop();
+        film_view_.drop();
         for (std::size_t i = 0; i < films.size(); ++i)
             devices_[i]->set_film(std::move(films[i]));
     }
     discard_samples();
-    gpu_scene_.reset();
+    view_.reset();
     if (!same_size || settings.height != settings_->height || settings.first_row != settings_->first_row)
         small_lamps_.reset();
     settings_ = settings;
@@ -137,7 +137,7 @@ void Renderer::set_code(const KernelCode &code) {
     for (const auto &device : devices_)
         pipelines.push_back(device->make_pipelines(code));
     discard_samples();
-    view_.drop();
+    film_view_.drop();
     for (std::size_t i = 0; i < pipelines.size(); ++i)
         devices_[i]->set_pipelines(code, std::move(pipelines[i]));
     code_ = code;
@@ -158,18 +158,18 @@ void Renderer::require_samples() const {
         throw Error(PT_ERROR_INVALID_STATE, "no samples yet: call pt_accumulate or pt_add_film first");
 }
 
-const std::shared_ptr<const GpuScene> &Renderer::gpu_scene_of_settings() {
-    if (!gpu_scene_)
-        gpu_scene_ = std::make_shared<const GpuScene>(gpu_scene(*scene_, *camera_, *settings_));
-    return gpu_scene_;
+const std::shared_ptr<const View> &Renderer::view() {
+    if (!view_)
+        view_ = std::make_shared<const View>(view_of(*scene_, *camera_, *settings_));
+    return view_;
 }
 
 void Renderer::prepare() {
     require_settings();
     const KernelsKept kept(devices_);
     for (const auto &device : devices_)
-        device->prepare_ahead(gpu_scene_of_settings(), *settings_);
-    view_.prepare();
+        device->prepare_ahead(view(), *settings_);
+    film_view_.prepare();
 }
 
 std::vector<pt_function_accuracy> Renderer::accuracy() {

@@ -16,9 +16,9 @@
 #include "lib/scene/camera.h"
 #include "lib/scene/render_settings.h"
 #include "lib/scene/scene.h"
-#include "lib/view/gpu_scene.h"
 #include "lib/view/prepared_scene.h"
 #include "lib/view/small_lamps.h"
+#include "lib/view/view.h"
 #include "lib/vulkan/caller_vulkan.h"
 #include "lib/vulkan/instance.h"
 #include "lib/vulkan/pipeline_cache.h"
@@ -143,7 +143,7 @@ private:
     void require_samples_of(std::uint32_t quantity) const;
     void require_room_for(std::uint32_t sample_count) const;
     void discard_samples() noexcept;
-    const std::shared_ptr<const GpuScene> &gpu_scene_of_settings();
+    const std::shared_ptr<const View> &view();
     Camera ray_start();
     ImageQuery query(const ImageLayout &layout) const;
     FilmIdentity identity() const;
@@ -172,11 +172,11 @@ private:
     vulkan::Instance instance_;
     std::optional<std::uint32_t> tree_from_;
     RenderDevices devices_;
-    FilmView view_{devices_};
+    FilmView film_view_{devices_};
     std::optional<PreparedScene> scene_;
     std::optional<Camera> camera_;
-    std::optional<RenderSettings> settings_;    // if set, the devices have films
-    std::shared_ptr<const GpuScene> gpu_scene_; // NULL after a change
+    std::optional<RenderSettings> settings_; // if set, the devices have films
+    std::shared_ptr<const View> view_;       // NULL after a change
     TileSamples samples_;
     AdaptiveRound round_;
     std::optional<ErrorEstimate> error_;

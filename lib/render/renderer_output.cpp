@@ -8,7 +8,7 @@
 #include "lib/render/renderer.h"
 #include "lib/render/saved_film.h"
 #include "lib/view/displacement.h"
-#include "lib/view/gpu_scene.h"
+#include "lib/view/view.h"
 
 #include <algorithm>
 #include <bit>
@@ -21,12 +21,12 @@ namespace pt {
 namespace {
 
 // Translates the kernel's surface numbers to the caller's.
-void read_first_hits(const Image &image, const RenderSettings &settings, const std::shared_ptr<const GpuScene> &scene,
+void read_first_hits(const Image &image, const RenderSettings &settings, const std::shared_ptr<const View> &view,
                      RenderDevice &device) {
     FirstHitQuery query{image.layout.pixels, image.layout.quantity, image.layout.format};
     query.pixels.y += settings.first_row;
     ImageRows rows(image);
-    device.read_first_hits(scene, settings, query, [&](std::span<const std::byte> pixels) {
+    device.read_first_hits(view, settings, query, [&](std::span<const std::byte> pixels) {
         if (query.quantity != PT_QUANTITY_OBJECT) {
             rows.put(pixels);
             return;
@@ -34,7 +34,7 @@ void read_first_hits(const Image &image, const RenderSettings &settings, const s
         std::vector<std::uint32_t> objects(pixels.size() / sizeof(std::uint32_t));
         std::memcpy(objects.data(), pixels.data(), pixels.size());
         for (std::uint32_t &object : objects)
-            object = scene->object_of(object);
+            object = view->object_of(object);
         rows.put(std::as_bytes(std::span(objects)));
     });
 }
@@ -46,7 +46,7 @@ void read_first_hits(const Image &image, const RenderSettings &settings, const s
 Camera Renderer::ray_start() {
     Camera start = *camera_;
     if (start.is_orthographic())
-        start.position += gpu_scene_of_settings()->start_distance * start.forward;
+        start.position += view()->start_distance * start.forward;
     return start;
 }
 
@@ -63,7 +63,7 @@ void Renderer::look(std::span<double> by_tile, bool is_recorded) {
     const std::uint64_t samples = samples_.total();
     ErrorEstimator estimator({settings_->sampler, may_miss_lamps(*scene_, ray_start(), *settings_, samples),
                               finds_lamps_by_chance(settings_->estimator, settings_->max_path_length)});
-    view_.estimate(estimator, {scene_->film_unit, samples_, by_tile}, is_recorded);
+    film_view_.estimate(estimator, {scene_->film_unit, samples_, by_tile}, is_recorded);
     rejected_samples_ = estimator.rejected();
     const bool is_unknown = samples_.least() < min_estimate_samples || hides_error(estimator.rejected(), samples);
     error_ = is_unknown ? unknown_error() : estimator.result();
@@ -85,7 +85,7 @@ ErrorEstimate Renderer::error_with_lamps() {
 
 const std::vector<LampPiece> &Renderer::small_lamps() {
     if (!small_lamps_)
-        small_lamps_ = small_lamps_in_view(*scene_, ray_start(), settings_->width, settings_->height,
+        small_lamps_ = small_lamps_in_view(*scene_, *projection_of(ray_start(), settings_->width, settings_->height),
                                            settings_->first_row, settings_->row_count);
     return *small_lamps_;
 }
@@ -137,9 +137,9 @@ void Renderer::readback(const Image &image) {
     if (!is_of_hits)
         require_samples_of(image.layout.quantity);
     if (is_of_hits)
-        read_first_hits(image, *settings_, gpu_scene_of_settings(), *devices_.front());
+        read_first_hits(image, *settings_, view(), *devices_.front());
     else
-        view_.read(image, query(image.layout), samples_);
+        film_view_.read(image, query(image.layout), samples_);
 }
 
 std::span<std::byte> Renderer::map(const ImageLayout &layout) {
@@ -147,7 +147,7 @@ std::span<std::byte> Renderer::map(const ImageLayout &layout) {
     if (!is_of_first_hits(layout.quantity)) {
         require_samples_of(layout.quantity);
         const KernelsKept kept(devices_);
-        if (const std::optional<std::span<std::byte>> mapped = view_.map(query(layout)))
+        if (const std::optional<std::span<std::byte>> mapped = film_view_.map(query(layout)))
             return *mapped;
     }
     mapped_image_.resize(layout.row_bytes * layout.pixels.height);
@@ -235,7 +235,7 @@ pt_stats Renderer::stats() {
     for (const auto &device : devices_)
         stats.device_bytes += device->device().allocated_bytes();
     stats.rejected_samples = rejected_samples_.value_or(0);
-    stats.features = gpu_scene_ ? feature_bits(gpu_scene_->features) : 0;
+    stats.features = view_ ? feature_bits(view_->features) : 0;
     stats.device_count = static_cast<std::uint32_t>(devices_.size());
     return stats;
 }

@@ -1,7 +1,7 @@
 #include "lib/base/error.h"
 #include "lib/film/adaptive_rule.h"
 #include "lib/render/renderer.h"
-#include "lib/view/gpu_scene.h"
+#include "lib/view/view.h"
 
 #include <algorithm>
 #include <chrono>
@@ -67,11 +67,11 @@ void Renderer::make_job(const pt_accumulate_info &wanted, bool is_polled) {
     require_tiles(wanted);
     require_room_for(wanted.sample_count);
     for (const auto &device : devices_)
-        device->prepare(gpu_scene_of_settings(), *settings_);
+        device->prepare(view(), *settings_);
     if (is_polled) {
         for (const auto &device : devices_)
             device->prepare_for_polls(wanted.target_error > 0.0);
-        view_.prepare();
+        film_view_.prepare();
     }
     const bool is_adaptive = wanted.target_error > 0.0 && wanted.sampling != PT_SAMPLING_UNIFORM;
     const std::uint32_t *const of_tiles = wanted.tile_samples;

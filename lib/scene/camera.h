@@ -5,7 +5,7 @@
 #include <glm/glm.hpp>
 
 #include <cmath>
-#include <string>
+#include <cstdint>
 
 namespace pt {
 
@@ -18,21 +18,17 @@ struct Camera {
     double shutter_open; // 0 <= shutter_open <= shutter_close <= 1
     double shutter_close;
     double vertical_extent = 0.0; // height of an orthographic view; 0 for perspective
-    double start_distance = 0.0;  // distance of ray starts from pt_camera.position (ray_start.h)
+    double start_distance = 0.0;  // distance of ray starts from pt_camera.position (lib/view/projection.h)
     double start_radius = 0.0;    // radius of the disc where rays start; 0 for a point
     double lens_radius = 0.0;     // 0 for a pinhole or parallel rays
     double focus = 0.0;           // depth of the plane in focus; 0 without a lens
+    std::uint32_t projection = PT_PROJECTION_PERSPECTIVE;
 
-    bool is_orthographic() const { return vertical_extent > 0.0; }
+    bool is_orthographic() const { return projection == PT_PROJECTION_ORTHOGRAPHIC; }
     bool has_lens() const { return lens_radius > 0.0; }
 
     // Returns the radius of the disc that the rays of an image point fill at this depth.
     double spread(double depth) const { return has_lens() ? lens_radius * std::abs(1.0 - depth / focus) : 0.0; }
 };
-
-// Throws PT_ERROR_INVALID_ARGUMENT with all broken rules.
-Camera validated_camera(const pt_camera &source);
-
-std::string digest_of(const Camera &camera);
 
 } // namespace pt

@@ -1,15 +1,14 @@
 #include "lib/view/displacement.h"
 
 #include "lib/base/rules.h"
-#include "lib/view/ray_start.h"
+#include "lib/view/projection.h"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
-#include <functional>
-#include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -44,38 +43,31 @@ Losses losses_of(const SphereTree *tree, const MovingBall &surface) {
 
 class PixelSides {
 public:
-    PixelSides(const Camera &camera, const RenderSettings &settings) :
-        depth_(depths_in_view(camera, settings)),
-        view_(camera.vertical_extent),
-        of_parallel_(camera.vertical_extent / settings.height),
-        at_distance_1_(2.0 * camera.tan_half_fov / settings.height) {}
+    explicit PixelSides(const Projection &projection) : projection_(projection) {}
 
     // Returns a lower bound, or infinity if the ball is out of view.
-    double nearest(const MovingBall &ball) const { return at(depth_(ball)); }
+    double nearest(const MovingBall &ball) const { return at(projection_.least_depth(ball)); }
 
     // Returns a lower bound. Long capsules and motions are halved until the parts are short or far away. A camera
     // inside a ball sees the ball's wall.
     double of_surface(const MovingBall &surface) const {
-        const double depth = depth_(surface);
-        const double short_way = view_ > 0.0 ? view_ : 0.25 * std::max(surface.radius, depth);
+        const double depth = projection_.least_depth(surface);
+        const double smallest = projection_.pixel_side(0.0); // positive for parallel rays
+        const double short_way =
+            smallest > 0.0 ? smallest * projection_.height() : 0.25 * std::max(surface.radius, depth);
         if (depth == out_of_view || glm::length(surface.way) <= short_way)
             return at(std::max(depth, std::abs(surface.radius - least_distance(surface.open, surface.way))));
         const glm::dvec3 half = 0.5 * surface.way;
         const double first = of_surface({surface.open, half, surface.radius});
-        if (first <= of_parallel_)
+        if (first <= smallest)
             return first;
         return std::min(first, of_surface({surface.open + half, half, surface.radius}));
     }
 
 private:
-    double at(double depth) const {
-        return depth == out_of_view ? out_of_view : of_parallel_ > 0.0 ? of_parallel_ : depth * at_distance_1_;
-    }
+    double at(double depth) const { return depth == out_of_view ? out_of_view : projection_.pixel_side(depth); }
 
-    std::function<double(const MovingBall &)> depth_;
-    double view_;        // height of an orthographic view, or 0
-    double of_parallel_; // pixel side in an orthographic view, or 0
-    double at_distance_1_;
+    const Projection &projection_;
 };
 
 std::string short_text(double number) {
@@ -100,7 +92,8 @@ struct Displaced {
 };
 
 Displaced most_displaced(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings) {
-    const PixelSides sides(camera, settings);
+    const std::unique_ptr<Projection> projection = projection_of(camera, settings.width, settings.height);
+    const PixelSides sides(*projection);
     Displaced most{0.0, {}, {}, {}};
     const auto take = [&](const SpherePlace &place, const MovingBall &surface, const SphereTree *tree) {
         const Losses losses = losses_of(tree, surface);

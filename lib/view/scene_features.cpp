@@ -137,7 +137,7 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
     features[gpu::ID_CLOSE_LAMPS] =
         features[gpu::ID_LAMP_COUNT] > 0 && (distinct.close_lamps || (tree && tree->has_close_lamps()));
     features[gpu::ID_STARTS_AHEAD] = camera.start_distance > 0.0 || camera.start_radius > 0.0;
-    features[gpu::ID_ORTHOGRAPHIC] = camera.is_orthographic();
+    features[gpu::ID_PROJECTION] = camera.projection;
     features[gpu::ID_LENS] = camera.has_lens();
     features[gpu::ID_MAX_PATH_LENGTH] = render.max_path_length;
     features[gpu::ID_ESTIMATOR] = render.estimator;
@@ -256,7 +256,6 @@ std::uint32_t feature_bits(const Features &features) {
         {gpu::ID_GLOSS, PT_FEATURE_GLOSS},
         {gpu::ID_MOTION, PT_FEATURE_MOTION},
         {gpu::ID_TREE, PT_FEATURE_TREE},
-        {gpu::ID_ORTHOGRAPHIC, PT_FEATURE_ORTHOGRAPHIC},
         {gpu::ID_HIDDEN_LAMPS, PT_FEATURE_HIDDEN},
         {gpu::ID_HIDDEN_SKIES, PT_FEATURE_HIDDEN},
         {gpu::ID_HIDDEN_OTHERS, PT_FEATURE_HIDDEN},
@@ -267,6 +266,8 @@ std::uint32_t feature_bits(const Features &features) {
     std::uint32_t bits = features.scene_in_uniform() ? 0 : PT_FEATURE_LARGE;
     if ((features[gpu::ID_KINDS] & gpu::KIND_CAPSULE) != 0)
         bits |= PT_FEATURE_CAPSULES;
+    if (features[gpu::ID_PROJECTION] == PT_PROJECTION_ORTHOGRAPHIC)
+        bits |= PT_FEATURE_ORTHOGRAPHIC;
     for (const auto &[id, bit] : bits_of_constants)
         bits |= features[id] > 0 ? bit : 0;
     return bits;

@@ -54,7 +54,7 @@ struct SeenScene {
 
 SeenScene seen_scene(const Scene &scene, const Camera &camera);
 
-// Throws PT_ERROR_UNSUPPORTED if a nearly flat sphere moves too far. `camera` is the start of rays (ray_start.h).
+// Throws PT_ERROR_UNSUPPORTED if a nearly flat sphere moves too far. `camera` is the start of rays (projection.h).
 void require_held_motions(const SeenScene &seen, const Scene &scene, const Camera &camera);
 
 // Like divides_start() for balls (lib/scene/moving_ball.h).

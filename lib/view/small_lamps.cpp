@@ -76,31 +76,26 @@ double transmittance(const PreparedScene &prepared, const Camera &start, const g
     return share;
 }
 
-double visible_share(const PreparedScene &scene, const Camera &camera, const glm::dvec3 &center, double radius) {
-    Camera start = camera;
-    if (camera.is_orthographic())
-        start.position += center - glm::dot(center, camera.forward) * camera.forward;
-    const glm::dvec3 way = center + camera.position - start.position;
+double visible_share(const PreparedScene &scene, const Projection &projection, const glm::dvec3 &center,
+                     double radius) {
+    const glm::dvec3 &position = projection.camera().position;
+    Camera start = projection.camera();
+    start.position += projection.origin(center);
+    const glm::dvec3 way = center + position - start.position;
     return transmittance(scene, start, glm::normalize(way), glm::length(way) - 2.0 * radius);
 }
 
 struct Window {
     std::uint32_t width;
-    std::uint32_t height;
     std::uint32_t first_row;
     std::uint32_t row_count;
 };
 
-// `center` is relative to the camera and in front of it. The lens blurs each point to a disc. Squares of both radii are
-// added, because they are proportional to variances.
-Disc disc_of(const glm::dvec3 &center, double radius, const Camera &camera, const Window &window) {
-    const double depth = glm::dot(center, camera.forward);
-    const double half_height = camera.is_orthographic() ? 0.5 * camera.vertical_extent : depth * camera.tan_half_fov;
-    const double scale = 0.5 * window.height / half_height;
-    const double seen_radius = scale * radius;
-    return {0.5 * window.width + scale * glm::dot(center, camera.right),
-            0.5 * window.height - scale * glm::dot(center, camera.up) - window.first_row,
-            std::hypot(seen_radius, scale * camera.spread(depth)), std::numbers::pi * seen_radius * seen_radius};
+// Squares of both radii are added, because they are proportional to variances.
+Disc disc_of(const ImagePlace &place, double radius, const Window &window) {
+    const double seen_radius = place.scale * radius;
+    return {place.x, place.y - window.first_row, std::hypot(seen_radius, place.blur),
+            std::numbers::pi * seen_radius * seen_radius};
 }
 
 // Adds the pixels of a disc. Large discs are divided into squares of several pixels, to limit the number of pieces.
@@ -143,14 +138,13 @@ void add_pieces(std::vector<LampPiece> &pieces, std::size_t first, Disc disc, in
 
 // A moving lamp counts at several times while the shutter is open. If it moves by more than a pixel between two times,
 // its disc at each time also stands for the pixels between.
-void add_lamp(std::vector<LampPiece> &pieces, const PreparedScene &scene, const Camera &camera, const Window &window,
-              const SeenSphere &lamp, const glm::dvec3 &emission) {
+void add_lamp(std::vector<LampPiece> &pieces, const PreparedScene &scene, const Projection &projection,
+              const Window &window, const SeenSphere &lamp, const glm::dvec3 &emission) {
     constexpr double most_moments = 64.0;
     constexpr int all_lines = 256;
     constexpr int least_lines = 16;
-    const auto is_ahead = [&](const glm::dvec3 &center) { return glm::dot(center, camera.forward) > lamp.radius; };
-    const auto seen = [&](const glm::dvec3 &center) { return disc_of(center, lamp.radius, camera, window); };
-    if (!is_ahead(lamp.open) || !is_ahead(lamp.close()))
+    const auto seen = [&](const glm::dvec3 &center) { return disc_of(projection.place(center), lamp.radius, window); };
+    if (!projection.is_ahead(lamp.open, lamp.radius) || !projection.is_ahead(lamp.close(), lamp.radius))
         return;
     const double path = std::hypot(seen(lamp.close()).x - seen(lamp.open).x, seen(lamp.close()).y - seen(lamp.open).y);
     const double moments = std::clamp(std::ceil(path), 1.0, most_moments);
@@ -165,7 +159,7 @@ void add_lamp(std::vector<LampPiece> &pieces, const PreparedScene &scene, const 
         const double bare_share = disc.size / std::max(disc.area() + 2.0 * disc.radius * path, 1.0);
         if (bare_share >= largest_share && !is_veiled)
             continue;
-        const double light = visible_share(scene, camera, center, lamp.radius);
+        const double light = visible_share(scene, projection, center, lamp.radius);
         const double lamp_share = light * bare_share;
         if (light == 0.0 || lamp_share >= largest_share)
             continue;
@@ -178,14 +172,14 @@ void add_lamp(std::vector<LampPiece> &pieces, const PreparedScene &scene, const 
 
 } // namespace
 
-std::vector<LampPiece> small_lamps_in_view(const PreparedScene &scene, const Camera &camera, std::uint32_t width,
-                                           std::uint32_t height, std::uint32_t first_row, std::uint32_t row_count) {
+std::vector<LampPiece> small_lamps_in_view(const PreparedScene &scene, const Projection &projection,
+                                           std::uint32_t first_row, std::uint32_t row_count) {
     std::vector<LampPiece> pieces;
     for (const Sphere &sphere : scene.lamps()) {
         const Material &material = scene.scene.materials[sphere.material];
-        const SeenSphere seen(sphere, material, camera);
+        const SeenSphere seen(sphere, material, projection.camera());
         if (!material.hidden)
-            add_lamp(pieces, scene, camera, {width, height, first_row, row_count}, seen, material.emission);
+            add_lamp(pieces, scene, projection, {projection.width(), first_row, row_count}, seen, material.emission);
     }
     return pieces;
 }

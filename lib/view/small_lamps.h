@@ -1,7 +1,7 @@
 #pragma once
 
-#include "lib/scene/camera.h"
 #include "lib/view/prepared_scene.h"
+#include "lib/view/projection.h"
 
 #include <glm/glm.hpp>
 
@@ -28,8 +28,8 @@ struct LampPiece {
 
 // Returns the lamps in these rows that less than half of a pixel's samples hit, because they are small, move, are out
 // of focus, or are behind translucent spheres. Lamps whose centers are behind opaque surfaces are left out.
-std::vector<LampPiece> small_lamps_in_view(const PreparedScene &scene, const Camera &camera, std::uint32_t width,
-                                           std::uint32_t height, std::uint32_t first_row, std::uint32_t row_count);
+std::vector<LampPiece> small_lamps_in_view(const PreparedScene &scene, const Projection &projection,
+                                           std::uint32_t first_row, std::uint32_t row_count);
 
 // Returns the samples per pixel that are enough for a lamp. Returns 0 if the lamp changes the relative square by less
 // than a hundredth.

@@ -1,5 +1,6 @@
 #include "lib/render/renderer.h"
 #include "lib/scene/scene.h"
+#include "lib/view/camera_rules.h"
 #include "tests/api/api_fixture.h"
 #include "tests/api/shader_folder.h"
 #include "tests/support/context_calls.h"

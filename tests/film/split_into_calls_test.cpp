@@ -1,5 +1,5 @@
 #include "lib/film/error_estimate.h"
-#include "tests/kernel/coursework_gpu_scene.h"
+#include "tests/kernel/coursework_view.h"
 #include "tests/kernel/probe.h"
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
@@ -78,7 +78,7 @@ protected:
 
     uint32_t most_of_a_dispatch(const Paths &paths) {
         const pt::Features features =
-            coursework_gpu_scene({3, 1, paths.max_length, 0, 0, PT_ESTIMATOR_MIS, paths.sampler, 0, 1})->features;
+            coursework_view({3, 1, paths.max_length, 0, 0, PT_ESTIMATOR_MIS, paths.sampler, 0, 1})->features;
         const uint32_t row_blocks = pt::point_layout(features).row_blocks();
         const pt::vulkan::Limits &limits = probe_device().limits();
         uint64_t most = std::min<uint64_t>(pt::gpu::FILM_MAX_GATHERED,

@@ -2,10 +2,10 @@
 #include "tests/fuzz/examine.h"
 
 #include "lib/base/error.h"
-#include "lib/scene/camera.h"
 #include "lib/scene/checked_scene.h"
 #include "lib/scene/render_settings.h"
-#include "lib/view/gpu_scene.h"
+#include "lib/view/camera_rules.h"
+#include "lib/view/view.h"
 #include "tests/fuzz/on_device.h"
 #include "tests/support/checked_scene_of.h"
 
@@ -90,8 +90,8 @@ void examine_one(const Input &input) {
 // Repeated surfaces merge, so a changed input may need another kernel.
 std::optional<pt::Features> features(const Input &input) {
     try {
-        return pt::gpu_scene(pt::PreparedScene(pt::owned_scene(checked_scene_of(input.scene()))),
-                             pt::validated_camera(input.camera), pt::validated_render(input.render))
+        return pt::view_of(pt::PreparedScene(pt::owned_scene(checked_scene_of(input.scene()))),
+                           pt::validated_camera(input.camera), pt::validated_render(input.render))
             .features;
     } catch (const pt::Error &) {
         return std::nullopt;

@@ -3,13 +3,13 @@
 
 #include "lib/base/error.h"
 #include "lib/base/struct_size.h"
-#include "lib/scene/camera.h"
 #include "lib/scene/checked_scene.h"
 #include "lib/scene/render_settings.h"
-#include "lib/view/gpu_scene.h"
+#include "lib/view/camera_rules.h"
 #include "lib/view/lamp_tree.h"
 #include "lib/view/scene_blocks.h"
 #include "lib/view/scene_features.h"
+#include "lib/view/view.h"
 #include "tests/support/checked_scene_of.h"
 
 #include <pt/stats.h>
@@ -223,12 +223,12 @@ void examine_one(const Input &input) {
     if (!scene || !camera || !settings)
         return;
     const pt::PreparedScene prepared(*scene);
-    const auto gpu_scene = accepted([&] { return pt::gpu_scene(prepared, *camera, *settings); });
-    if (!gpu_scene)
+    const auto view = accepted([&] { return pt::view_of(prepared, *camera, *settings); });
+    if (!view)
         return;
-    require_features(gpu_scene->features, *scene);
-    require_words(gpu_scene->words, gpu_scene->features);
-    require_frame(gpu_scene->frame, prepared.film_unit);
+    require_features(view->features, *scene);
+    require_words(view->words, view->features);
+    require_frame(view->frame, prepared.film_unit);
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-#include "lib/scene/camera.h"
+#include "lib/view/camera_rules.h"
 
 #include "tests/geometry/refusals.h"
 

@@ -1,5 +1,6 @@
 // PT_TEST_MANY renders 600 scenes. PT_TEST_FIRST_SCENE is the first scene's number.
-#include "lib/view/gpu_scene.h"
+#include "lib/view/camera_rules.h"
+#include "lib/view/view.h"
 #include "tests/geometry/first_hit_scenes.h"
 #include "tests/geometry/tree_fixture.h"
 #include "tests/geometry/tree_scenes.h"
@@ -134,7 +135,7 @@ protected:
         const pt::PreparedScene prepared = prepared_scene_of(checked_scene_of(scene), has_tree ? 1 : UINT32_MAX);
         View view(given.camera, given.render);
         view.start_distance =
-            pt::gpu_scene(prepared, pt::validated_camera(given.camera), pt::validated_render(given.render))
+            pt::view_of(prepared, pt::validated_camera(given.camera), pt::validated_render(given.render))
                 .start_distance;
         view.tree_step = prepared.tree ? prepared.tree->grid().step : 0.0;
         Counts counts;

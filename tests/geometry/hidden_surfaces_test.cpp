@@ -1,6 +1,6 @@
-#include "lib/view/gpu_scene.h"
 #include "lib/view/kernel_surfaces.h"
 #include "lib/view/scene_features.h"
+#include "lib/view/view.h"
 #include "tests/support/checked_scene_of.h"
 
 #include <gtest/gtest.h>
@@ -62,7 +62,7 @@ pt::Scene scene_of(std::vector<pt::Sphere> spheres, std::vector<pt::Plane> plane
 
 pt::Features features_of(const pt::Scene &scene) {
     const pt::Camera camera{glm::dvec3(0.0), {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, 0.0, 1.0};
-    return pt::gpu_scene(pt::PreparedScene(scene), camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4})
+    return pt::view_of(pt::PreparedScene(scene), camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4})
         .features;
 }
 

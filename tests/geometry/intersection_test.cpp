@@ -1,5 +1,5 @@
 #include "intersection.spv.h"
-#include "lib/view/gpu_scene.h"
+#include "lib/view/view.h"
 #include "tests/kernel/probe.h"
 
 #include <gtest/gtest.h>
@@ -45,13 +45,13 @@ std::vector<Met> follow(const Ball &ball, const std::vector<Ray> &rays, Held hel
     scene.spheres = {{ball.center, ball.radius, {held == Held::ByItsCenter ? ball.radius : 0.0, 0, 0}, 0}};
     const pt::Camera camera{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, 0.0, 1.0};
     const pt::PreparedScene prepared(scene);
-    const pt::GpuScene gpu_scene = pt::gpu_scene({pt::seen_scene(scene, camera), false, false}, prepared, camera,
-                                                 {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4});
+    const pt::View view = pt::view_of({pt::seen_scene(scene, camera), false, false}, prepared, camera,
+                                      {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4});
     const auto count = static_cast<std::uint32_t>(rays.size());
-    auto constants = pt::specialization_constants(gpu_scene.features);
+    auto constants = pt::specialization_constants(view.features);
     constants[pt::gpu::ID_KNOWN_SIDES] = 0;
     Probe probe(intersection_spirv(), sizeof count, constants);
-    probe.set_scene(gpu_scene.words);
+    probe.set_scene(view.words);
     std::vector<glm::vec4> input;
     for (const Ray &ray : rays) {
         input.emplace_back(ray.origin, ray.start);

@@ -1,6 +1,6 @@
 #include "lib/scene/checked_scene.h"
 #include "lib/view/prepared_scene.h"
-#include "lib/view/ray_start.h"
+#include "lib/view/projection.h"
 #include "lib/view/seen_scene.h"
 #include "tests/support/checked_scene_of.h"
 #include "tests/support/scene_of.h"
@@ -26,10 +26,10 @@ pt::Camera looking_along(const glm::dvec3 &forward, double vertical_fov) {
 pt::Camera parallel_along(const glm::dvec3 &forward, double extent) {
     pt::Camera camera = looking_along(forward, 0.0);
     camera.vertical_extent = extent;
+    camera.projection = PT_PROJECTION_ORTHOGRAPHIC;
     return camera;
 }
 
-const pt::RenderSettings square{64, 64, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 64};
 const glm::dvec3 oblique = glm::normalize(glm::dvec3(0.48, 0.6, -0.64));
 
 double start_of(const std::vector<pt::Sphere> &spheres, const std::vector<pt::Plane> &planes,
@@ -38,7 +38,7 @@ double start_of(const std::vector<pt::Sphere> &spheres, const std::vector<pt::Pl
     scene.materials = {{glm::vec3(0.5F), glm::vec3(0), glm::vec3(0), 0}};
     scene.spheres = spheres;
     scene.planes = planes;
-    const pt::Camera ahead = pt::starting_ahead(scene, nullptr, camera, square);
+    const pt::Camera ahead = pt::projection_of(camera, 64, 64)->starting_ahead(scene, nullptr);
     EXPECT_LT(glm::length(ahead.position - camera.position - ahead.start_distance * camera.forward),
               1e-15 * ahead.start_distance + 1e-15);
     return ahead.start_distance;
@@ -204,6 +204,7 @@ TEST(RayStart, OfATreeIsThatOfItsSpheres) {
     int ahead = 0;
     for (int round = 0; round < 300; ++round) {
         pt::Camera camera = looking_along({uniform(-1, 1), uniform(-1, 1), -1.5}, std::pow(10.0, uniform(-6, -2.5)));
+        camera.projection = round % 2 == 0 ? PT_PROJECTION_PERSPECTIVE : PT_PROJECTION_ORTHOGRAPHIC;
         camera.vertical_extent = round % 2 == 0 ? 0.0 : std::pow(10.0, uniform(-4, 1));
         const bool moves = round % 3 == 0;
         const glm::dvec3 middle = camera_position + (round % 5 == 0 ? 300.0 : 0.0) * camera.forward;
@@ -223,7 +224,8 @@ TEST(RayStart, OfATreeIsThatOfItsSpheres) {
             list.push_back({center, radius * (is_around ? 1.0 - 0x1p-15 : 1.0 + 0x1p-15), way, 0});
         }
         const pt::PreparedScene prepared = prepared_scene_of(checked_scene_of(scene_of({&grey, 1}, held, {})), 1);
-        const double start = pt::starting_ahead(prepared.scene, prepared.tree.get(), camera, square).start_distance;
+        const double start =
+            pt::projection_of(camera, 64, 64)->starting_ahead(prepared.scene, prepared.tree.get()).start_distance;
         const double expected = start_of(list, {}, camera);
         EXPECT_NEAR(start, expected, 1e-3 * (1.0 + 1e-3 * expected)) << "round " << round;
         ahead += expected > 1.0 ? 1 : 0;

@@ -32,7 +32,7 @@ TEST(TreePath, TakeTheSamplesOfWholeWalks) {
             camera.lens_radius = 0.05;
             camera.focus = 2.0;
         }
-        KernelRender render(pt::gpu_scene(all_in_a_tree(scene), camera, KernelRender::settings(length)));
+        KernelRender render(pt::view_of(all_in_a_tree(scene), camera, KernelRender::settings(length)));
         SCOPED_TRACE(std::to_string(scene.spheres.size()) + " spheres, " + scenes.kind() + ", length " +
                      std::to_string(length));
         const std::uint32_t lamps = render.features()[pt::gpu::ID_LAMP_COUNT];

@@ -69,7 +69,7 @@ struct Compared {
 Compared compare(const pt::PreparedScene &prepared, const pt::Camera &camera) {
     // Without boxes, the spheres use up the 65,535 rounds of a loop that some drivers allow.
     const std::size_t spheres = prepared.tree->sphere_count();
-    KernelRender render(pt::gpu_scene(prepared, camera, KernelRender::settings(spheres > 100 ? 2 : 4)));
+    KernelRender render(pt::view_of(prepared, camera, KernelRender::settings(spheres > 100 ? 2 : 4)));
     render.take(spheres > 400 ? 2 : spheres > 40 ? 4 : 8);
     Probe probe = render.probe_of_tree();
     const FilmWords walked = render.film_by(probe);
@@ -180,8 +180,8 @@ std::optional<bool> is_seen_alike(const pt::Scene &scene, const pt::Camera &came
     const pt::PreparedScene anew = prepared(spheres, nullptr);
     if (with_shape.tree->words() == anew.tree->words())
         return std::nullopt;
-    const KernelRender render_kept(pt::gpu_scene(with_shape, camera, KernelRender::settings(3)));
-    const KernelRender render_new(pt::gpu_scene(anew, camera, KernelRender::settings(3)));
+    const KernelRender render_kept(pt::view_of(with_shape, camera, KernelRender::settings(3)));
+    const KernelRender render_new(pt::view_of(anew, camera, KernelRender::settings(3)));
     EXPECT_EQ(render_kept.features(), render_new.features());
     Probe probe = render_kept.probe_of_tree();
     const FilmWords film_kept = render_kept.film_by(probe);
@@ -231,7 +231,7 @@ TEST(Tree, WalksThatADriverCutsAreTold) {
     const std::vector<pt_sphere> spheres_of_caller = caller_spheres(scene.spheres);
     const pt::PreparedScene prepared = prepared_scene_of({scene.materials, {spheres_of_caller, {}}, {}}, 1);
     const pt::Camera camera{{0, 0, 5}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, 0.0, 1.0};
-    KernelRender render(pt::gpu_scene(prepared, camera, KernelRender::settings(2)));
+    KernelRender render(pt::view_of(prepared, camera, KernelRender::settings(2)));
     render.take(1);
     Probe probe = render.probe_of_tree();
     const FilmWords walked = render.film_by(probe);

@@ -1,6 +1,6 @@
-#include "lib/view/gpu_scene.h"
 #include "lib/view/scene_blocks.h"
 #include "lib/view/seen_scene.h"
+#include "lib/view/view.h"
 
 #include <gtest/gtest.h>
 
@@ -26,18 +26,18 @@ pt::Scene small_scene() {
     return scene;
 }
 
-pt::GpuScene gpu_scene_of(const pt::Scene &scene, const pt::Camera &camera) {
-    return pt::gpu_scene(pt::PreparedScene(scene), camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4});
+pt::View view_from(const pt::Scene &scene, const pt::Camera &camera) {
+    return pt::view_of(pt::PreparedScene(scene), camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4});
 }
 
 TEST(GpuLayout, WhatTheSceneDoesNotUseIsNotInTheBuffer) {
     pt::Scene scene = small_scene();
     scene.materials[1].specular = {0, 0, 0};
     scene.spheres[0].motion = {0, 0, 0};
-    const pt::GpuScene gpu_scene = gpu_scene_of(scene, camera_at({0, 0, 1}));
-    EXPECT_FALSE(gpu_scene.features[pt::gpu::ID_GLOSS]);
-    EXPECT_FALSE(gpu_scene.features[pt::gpu::ID_MOTION]);
-    EXPECT_EQ(gpu_scene.words.size(), 9U);
+    const pt::View view = view_from(scene, camera_at({0, 0, 1}));
+    EXPECT_FALSE(view.features[pt::gpu::ID_GLOSS]);
+    EXPECT_FALSE(view.features[pt::gpu::ID_MOTION]);
+    EXPECT_EQ(view.words.size(), 9U);
 }
 
 // Curved planes come before flat planes. A lamp whose radius is 2048 times its distance becomes a curved plane.
@@ -46,14 +46,14 @@ TEST(GpuLayout, HugeSpheresArePlanesWithACurvature) {
     scene.spheres.push_back({{0, -1026, 1}, 1024, {0, 0, 0}, 0});
     scene.spheres.push_back({{0, 0, 262147}, 262144, {0, 0, 0}, 2});
     const pt::Camera camera = camera_at({0, 0, 1});
-    const pt::GpuScene gpu_scene = gpu_scene_of(scene, camera);
-    const pt::Features &features = gpu_scene.features;
+    const pt::View view = view_from(scene, camera);
+    const pt::Features &features = view.features;
     EXPECT_EQ(features[pt::gpu::ID_SPHERE_COUNT], 2U);
     EXPECT_EQ(features[pt::gpu::ID_PLANE_COUNT], 3U);
     EXPECT_EQ(features[pt::gpu::ID_LAMP_COUNT], 1U);
     EXPECT_TRUE(features[pt::gpu::ID_CURVATURE]);
 
-    const std::vector<glm::vec4> &words = gpu_scene.words;
+    const std::vector<glm::vec4> &words = view.words;
     ASSERT_EQ(words.size(), 5U * 4 + 2 + 3);
     EXPECT_EQ(words[2], glm::vec4(0, 1, 0, 2));
     EXPECT_EQ(words[3], glm::vec4(0, 0, -1, 2));
@@ -102,8 +102,8 @@ TEST(GpuLayout, TheFilmUnitFollowsTheBrightestLampInUse) {
 TEST(GpuLayout, ALampsNegativeZeroIsZero) {
     pt::Scene scene = small_scene();
     scene.materials[2].emission.r = -0.0F;
-    const pt::GpuScene gpu_scene = gpu_scene_of(scene, camera_at({0, 0, 1}));
-    const glm::vec4 emission = gpu_scene.words[pt::SceneBlocks(gpu_scene.features).emission];
+    const pt::View view = view_from(scene, camera_at({0, 0, 1}));
+    const glm::vec4 emission = view.words[pt::SceneBlocks(view.features).emission];
     EXPECT_EQ(emission.g, 60.0F);
     EXPECT_EQ(emission.r, 0.0F);
     EXPECT_FALSE(std::signbit(emission.r));

@@ -4,7 +4,8 @@
 #include "lib/code/specialised_code.h"
 #include "lib/film/pixel_sums.h"
 #include "lib/scene/checked_scene.h"
-#include "lib/view/gpu_scene.h"
+#include "lib/view/camera_rules.h"
+#include "lib/view/view.h"
 #include "tests/film/film_words.h"
 #include "tests/invariance/invariance_scene.h"
 #include "tests/kernel/probe.h"
@@ -30,9 +31,9 @@ public:
     static constexpr std::uint64_t seed = 7;
 
     KernelRender(const pt::Scene &scene, const pt::Camera &camera, std::uint32_t max_path_length = 4) :
-        KernelRender(pt::gpu_scene(pt::PreparedScene(scene), camera, settings(max_path_length))) {}
+        KernelRender(pt::view_of(pt::PreparedScene(scene), camera, settings(max_path_length))) {}
 
-    explicit KernelRender(pt::GpuScene scene) : scene_(std::move(scene)), frame_(scene_.frame) {
+    explicit KernelRender(pt::View scene) : scene_(std::move(scene)), frame_(scene_.frame) {
         if (scene_.tree)
             tree_ = scene_.tree->words();
         frame_.strip_pixel_count = width * height;
@@ -106,7 +107,7 @@ public:
     }
 
 private:
-    pt::GpuScene scene_;
+    pt::View scene_;
     std::vector<glm::uvec4> tree_;
     pt::gpu::FrameConstants frame_;
 };

@@ -1,5 +1,5 @@
 #include "lib/render/render_device.h"
-#include "tests/kernel/coursework_gpu_scene.h"
+#include "tests/kernel/coursework_view.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/vulkan/device_fixture.h"
 
@@ -28,7 +28,7 @@ protected:
     static void set_up(pt::RenderDevice &device) {
         const pt::RenderSettings settings = pt::validated_render(render_of(part_width, part_height, 3));
         device.set_film(device.make_film(settings));
-        device.prepare(coursework_gpu_scene(settings), settings);
+        device.prepare(coursework_view(settings), settings);
     }
 
     static pt::PixelSums sums(pt::RenderDevice &device) {

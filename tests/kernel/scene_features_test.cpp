@@ -1,5 +1,5 @@
-#include "lib/view/gpu_scene.h"
 #include "lib/view/scene_features.h"
+#include "lib/view/view.h"
 #include "tests/support/checked_scene_of.h"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ pt::Features features_of(const std::vector<pt::Sphere> &spheres, const std::vect
     scene.spheres = spheres;
     scene.planes = planes;
     const pt::Camera camera{eye, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, shutter.open, shutter.close};
-    return pt::gpu_scene(pt::PreparedScene(scene), camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4})
+    return pt::view_of(pt::PreparedScene(scene), camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4})
         .features;
 }
 
@@ -61,7 +61,7 @@ TEST(FeatureTreeInside, IsWhetherTheCameraIsInASphereOfTheTree) {
     for (const double z : {0.0, -9.0}) {
         const pt::Camera camera{{0, 0, z}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, 0, 1};
         const pt::Features features =
-            pt::gpu_scene(prepared, camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4}).features;
+            pt::view_of(prepared, camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4}).features;
         EXPECT_TRUE(features[pt::gpu::ID_INSIDE]);
         EXPECT_EQ(features[pt::gpu::ID_TREE_INSIDE], z == -9.0 ? 1U : 0U);
         EXPECT_GE(features[pt::gpu::ID_TREE_LEVELS], prepared.tree->depth());

@@ -1,6 +1,6 @@
 #include "lamps.spv.h"
-#include "lib/view/gpu_scene.h"
 #include "lib/view/scene_blocks.h"
+#include "lib/view/view.h"
 #include "shaders/specialization.h"
 #include "tests/kernel/probe.h"
 #include "tests/support/lamp_scenes.h"
@@ -37,7 +37,7 @@ struct TreeDrawn {
 
 class TreeProbe {
 public:
-    explicit TreeProbe(const pt::GpuScene &scene) :
+    explicit TreeProbe(const pt::View &scene) :
         lamp_count_(scene.features[pt::gpu::ID_LAMP_COUNT]),
         probe_(lamps_spirv(), sizeof(Push), constants(scene)) {
         probe_.set_scene(scene.words);
@@ -62,7 +62,7 @@ private:
         std::uint32_t surface, seed, count;
     };
 
-    static std::array<std::uint32_t, pt::gpu::CONSTANT_COUNT> constants(const pt::GpuScene &scene) {
+    static std::array<std::uint32_t, pt::gpu::CONSTANT_COUNT> constants(const pt::View &scene) {
         auto constants = pt::specialization_constants(scene.features);
         constants[pt::gpu::ID_POINT_BLOCKS] = probe_point_blocks;
         return constants;
@@ -72,7 +72,7 @@ private:
     Probe probe_;
 };
 
-std::vector<TreeVertex> tree_vertices(const pt::GpuScene &scene) {
+std::vector<TreeVertex> tree_vertices(const pt::View &scene) {
     const glm::vec3 lamp(scene.words[scene.features[pt::gpu::ID_LAMP_COUNT] / 2]);
     const float radius = scene.words[scene.features[pt::gpu::ID_LAMP_COUNT] / 2].w;
     const glm::vec3 oblique = glm::normalize(glm::vec3(2, -1, 0.5F));
@@ -87,7 +87,7 @@ std::vector<TreeVertex> tree_vertices(const pt::GpuScene &scene) {
             {lamp, {0, 0, 1}, 0.0F, scene.features[pt::gpu::ID_LAMP_COUNT] / 2}};
 }
 
-std::vector<double> lamp_weights(const pt::GpuScene &scene, const TreeVertex &vertex) {
+std::vector<double> lamp_weights(const pt::View &scene, const TreeVertex &vertex) {
     std::vector<double> weights;
     const pt::SceneBlocks blocks(scene.features);
     for (std::uint32_t lamp = 0; lamp < scene.features[pt::gpu::ID_LAMP_COUNT]; ++lamp) {
@@ -156,14 +156,14 @@ void expect_what_is_stated(const std::vector<TreeDrawn> &drawn, const std::vecto
 TEST(LampTreeChoice, FollowsTheStatedProbability) {
     const double bound = statistics::normal_quantile(1e-6 / 72);
     for (const auto &[name, scene] : lamp_scenes::all()) {
-        const pt::GpuScene gpu_scene = lamp_scenes::gpu_scene(scene);
-        TreeProbe probe(gpu_scene);
-        const std::uint32_t lamp_count = gpu_scene.features[pt::gpu::ID_LAMP_COUNT];
+        const pt::View view = lamp_scenes::view_of(scene);
+        TreeProbe probe(view);
+        const std::uint32_t lamp_count = view.features[pt::gpu::ID_LAMP_COUNT];
         std::uint32_t seed = 100;
-        for (const TreeVertex &vertex : tree_vertices(gpu_scene)) {
+        for (const TreeVertex &vertex : tree_vertices(view)) {
             SCOPED_TRACE(name);
             const std::vector<TreeDrawn> drawn = probe.draw(vertex, 1U << 16, seed++);
-            expect_what_is_stated(drawn, lamp_weights(gpu_scene, vertex));
+            expect_what_is_stated(drawn, lamp_weights(view, vertex));
             double sum = 0.0;
             for (std::uint32_t lamp = 0; lamp < lamp_count; ++lamp)
                 sum += static_cast<double>(drawn[lamp].probability);
@@ -178,7 +178,7 @@ TEST(LampTreeChoice, FollowsTheStatedProbability) {
 
 // Returns sum (w^2 / P) / (sum w)^2 - 1. The value is 0 if P is proportional to w, at most 1 / 9 if a tenth of the
 // choices is uniform, and 9 for choices by power alone.
-double relative_variance(TreeProbe &probe, const pt::GpuScene &scene, const TreeVertex &vertex) {
+double relative_variance(TreeProbe &probe, const pt::View &scene, const TreeVertex &vertex) {
     const std::vector<double> weights = lamp_weights(scene, vertex);
     const std::vector<double> probabilities = probe.probabilities(vertex);
     double sum = 0.0;
@@ -197,7 +197,7 @@ double median(std::vector<double> values) {
 
 TEST(LampTreeChoice, AreSharp) {
     for (const double motion : {0.0, 3.0}) {
-        const pt::GpuScene scene = lamp_scenes::gpu_scene(lamp_scenes::in_a_box(10000, 8, motion));
+        const pt::View scene = lamp_scenes::view_of(lamp_scenes::in_a_box(10000, 8, motion));
         TreeProbe probe(scene);
         std::vector<double> on_ground;
         std::vector<double> in_midair;

@@ -70,7 +70,7 @@ struct HeldNode {
     glm::vec3 at(float time) const { return open + time * way; }
 };
 
-HeldNode held_node(const pt::GpuScene &scene, std::uint64_t group, int place) {
+HeldNode held_node(const pt::View &scene, std::uint64_t group, int place) {
     const bool motion = scene.features[gpu::ID_MOTION];
     const std::uint64_t first = pt::SceneBlocks(scene.features).lamp_tree;
     const auto number = [&](std::uint64_t word) {
@@ -82,13 +82,13 @@ HeldNode held_node(const pt::GpuScene &scene, std::uint64_t group, int place) {
     return node;
 }
 
-std::uint64_t first_slot_word(const pt::GpuScene &scene) {
+std::uint64_t first_slot_word(const pt::View &scene) {
     return pt::SceneBlocks(scene.features).lamp_tree +
            gpu::lamp_tree_group_words(scene.features[gpu::ID_MOTION]) *
                pt::LampTreeShape(scene.features[gpu::ID_LAMP_COUNT]).all_groups();
 }
 
-std::uint32_t lamp_of_slot(const pt::GpuScene &scene, std::uint64_t slot) {
+std::uint32_t lamp_of_slot(const pt::View &scene, std::uint64_t slot) {
     const float bits = scene.words[first_slot_word(scene) + slot / 4][static_cast<int>(slot % 4)];
     EXPECT_TRUE(std::isnormal(bits));
     return std::bit_cast<std::uint32_t>(bits) - gpu::MATERIAL_INDEX_BITS;
@@ -99,7 +99,7 @@ TEST(LampTreeWords, NodesHoldTheirLamps) {
         pt::Camera camera = lamp_scenes::camera();
         for (const glm::dvec3 &from : {glm::dvec3(0, 0, 0), glm::dvec3(-3e4, 17, 5e3)}) {
             camera.position = from;
-            const pt::GpuScene seen = lamp_scenes::gpu_scene(scene, camera);
+            const pt::View seen = lamp_scenes::view_of(scene, camera);
             ASSERT_TRUE(seen.features[gpu::ID_LAMP_TREE_LEVELS]) << name;
             const pt::LampTreeShape shape(seen.features[gpu::ID_LAMP_COUNT]);
             const std::uint64_t slots = first_slot_word(seen) + shape.slots() / 4;
@@ -129,7 +129,7 @@ TEST(LampTreeWords, NodesHoldTheirLamps) {
 }
 
 TEST(LampTreeWords, PowersAddUpAndTheWeakestCounts) {
-    const pt::GpuScene seen = lamp_scenes::gpu_scene(lamp_scenes::with_a_strong_one(200));
+    const pt::View seen = lamp_scenes::view_of(lamp_scenes::with_a_strong_one(200));
     const pt::LampTreeShape shape(200);
     double top = 0.0;
     double lamps = 0.0;
@@ -149,7 +149,7 @@ TEST(LampTreeWords, PowersAddUpAndTheWeakestCounts) {
 
 TEST(LampTreeFeature, DependsOnTheNumberOfLampsAlone) {
     const auto features = [](const pt::Scene &scene, std::uint32_t estimator = PT_ESTIMATOR_MIS) {
-        return lamp_scenes::gpu_scene(scene, lamp_scenes::camera(), estimator).features;
+        return lamp_scenes::view_of(scene, lamp_scenes::camera(), estimator).features;
     };
     constexpr std::uint32_t least = pt::least_tree_lamps;
     const pt::Features below = features(lamp_scenes::in_a_box(least - 1, 4));
@@ -170,7 +170,7 @@ TEST(LampTreeFeature, DependsOnTheNumberOfLampsAlone) {
 TEST(LampTreeWords, LeaveOutTwins) {
     pt::Scene scene = lamp_scenes::in_a_box(40, 4);
     scene.spheres[7] = scene.spheres[31];
-    const pt::GpuScene seen = lamp_scenes::gpu_scene(scene);
+    const pt::View seen = lamp_scenes::view_of(scene);
     ASSERT_EQ(seen.features[gpu::ID_LAMP_COUNT], 39U);
     const pt::LampTreeShape shape(39);
     std::vector<std::uint32_t> lamps;
@@ -190,7 +190,7 @@ TEST(LampTreeWords, NodesMoveWithTheirLamps) {
     pt::Scene scene = lamp_scenes::in_a_box(90, 4);
     for (pt::Sphere &sphere : scene.spheres)
         sphere.motion = {4, -2, 8};
-    const pt::GpuScene seen = lamp_scenes::gpu_scene(scene);
+    const pt::View seen = lamp_scenes::view_of(scene);
     const pt::LampTreeShape shape(90);
     for (std::uint64_t group = 0; group < shape.groups_above(shape.levels()); ++group)
         for (int place = 0; place < 4; ++place)

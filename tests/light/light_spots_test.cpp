@@ -1,5 +1,5 @@
-#include "lib/view/gpu_scene.h"
 #include "lib/view/light_spots.h"
+#include "lib/view/view.h"
 
 #include <gtest/gtest.h>
 #include <pt/pt.h>
@@ -25,7 +25,7 @@ struct SpotRoom {
     std::uint32_t estimator = PT_ESTIMATOR_MIS;
 };
 
-pt::GpuScene scene_of_room(const SpotRoom &room, const glm::dvec3 &eye = {0, 2, 8}) {
+pt::View scene_of_room(const SpotRoom &room, const glm::dvec3 &eye = {0, 2, 8}) {
     pt::Scene scene;
     const float specular = room.ball_specular;
     scene.materials = {{glm::vec3(0), glm::vec3(0), glm::vec3(1), 0},
@@ -36,12 +36,12 @@ pt::GpuScene scene_of_room(const SpotRoom &room, const glm::dvec3 &eye = {0, 2, 
     scene.spheres.push_back({{-3, 2, 0}, 1, {0, 0, 0}, polished_material});
     scene.planes = {{{0, 1, 0}, 0, room.floor_material}, {{0, -1, 0}, 10, matt_material}};
     const pt::Camera camera{eye, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, 0.0, 0.0};
-    return pt::gpu_scene(pt::PreparedScene(scene), camera,
-                         {4, 4, room.max_path_length, 0, 0, room.estimator, PT_SAMPLER_SOBOL, 0, 4});
+    return pt::view_of(pt::PreparedScene(scene), camera,
+                       {4, 4, room.max_path_length, 0, 0, room.estimator, PT_SAMPLER_SOBOL, 0, 4});
 }
 
 std::uint32_t spots_of(const SpotRoom &room) {
-    const pt::GpuScene scene = scene_of_room(room);
+    const pt::View scene = scene_of_room(room);
     return scene.features[pt::gpu::ID_SPOT_COUNT];
 }
 
@@ -82,7 +82,7 @@ TEST(LightSpots, AreNoneWhereTheyWouldBeMany) {
 
 TEST(LightSpots, AreTheLastWordsOfTheScene) {
     const SpotRoom room{.ball_specular = 0.5F};
-    const pt::GpuScene scene = scene_of_room(room);
+    const pt::View scene = scene_of_room(room);
     ASSERT_EQ(scene.features[pt::gpu::ID_SPOT_COUNT], 2U);
     const auto number = [](float bits) { return std::bit_cast<std::uint32_t>(bits) - pt::gpu::MATERIAL_INDEX_BITS; };
     const glm::vec4 image = scene.words[scene.words.size() - 2];
@@ -95,7 +95,7 @@ TEST(LightSpots, AreTheLastWordsOfTheScene) {
     EXPECT_EQ(number(glow.y), 2U) << "the floor";
     EXPECT_EQ(glow.z, 0.5F);
     EXPECT_EQ(glow.w, -1.0F);
-    const pt::GpuScene elsewhere = scene_of_room(room, {100, 3, -50});
+    const pt::View elsewhere = scene_of_room(room, {100, 3, -50});
     EXPECT_EQ(elsewhere.features, scene.features);
     EXPECT_EQ(elsewhere.words.back(), glow);
 }

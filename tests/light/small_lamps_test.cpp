@@ -37,6 +37,7 @@ constexpr pt::Camera camera{.position = {1.0, 2.0, 3.0},
 pt::Camera parallel_camera() {
     pt::Camera parallel = camera;
     parallel.vertical_extent = 200.0;
+    parallel.projection = PT_PROJECTION_ORTHOGRAPHIC;
     return parallel;
 }
 
@@ -55,7 +56,7 @@ std::vector<pt::LampPiece> pieces_of(const std::vector<pt_sphere> &spheres, cons
     scene.sphere_array_count = static_cast<std::uint32_t>(arrays.size());
     const pt::PreparedScene prepared = prepared_scene_of(checked_scene_of(scene), has_tree ? 1 : 1000);
     EXPECT_EQ(prepared.tree != nullptr, has_tree);
-    return pt::small_lamps_in_view(prepared, seen_by, 400, 200, 0, 200);
+    return pt::small_lamps_in_view(prepared, *pt::projection_of(seen_by, 400, 200), 0, 200);
 }
 
 double share_of(const std::vector<pt::LampPiece> &pieces, std::uint32_t x, std::uint32_t y) {

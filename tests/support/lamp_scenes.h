@@ -1,6 +1,6 @@
 #pragma once
 
-#include "lib/view/gpu_scene.h"
+#include "lib/view/view.h"
 
 #include <pt/pt.h>
 
@@ -21,9 +21,9 @@ inline pt::Camera camera() {
     return {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, 0.25, 0.75};
 }
 
-inline pt::GpuScene gpu_scene(const pt::Scene &scene, const pt::Camera &seen_by = camera(),
-                              std::uint32_t estimator = PT_ESTIMATOR_MIS) {
-    return pt::gpu_scene(pt::PreparedScene(scene), seen_by, {16, 12, 3, 0, 0, estimator, PT_SAMPLER_RANDOM, 0, 12});
+inline pt::View view_of(const pt::Scene &scene, const pt::Camera &seen_by = camera(),
+                        std::uint32_t estimator = PT_ESTIMATOR_MIS) {
+    return pt::view_of(pt::PreparedScene(scene), seen_by, {16, 12, 3, 0, 0, estimator, PT_SAMPLER_RANDOM, 0, 12});
 }
 
 inline void add_lamp(pt::Scene &scene, const glm::dvec3 &center, double radius, double radiance,

@@ -4,7 +4,7 @@
 #include "lib/vulkan/compute_pipeline.h"
 #include "lib/vulkan/device_choice.h"
 #include "recurrence.spv.h"
-#include "tests/kernel/coursework_gpu_scene.h"
+#include "tests/kernel/coursework_view.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/support/expected_error.h"
 #include "tests/vulkan/caller_vulkan.h"
@@ -88,7 +88,7 @@ protected:
         const QueueSpy spy(device.device().handle());
         const pt::RenderSettings settings = pt::validated_render(render_of(20, 10, 2));
         device.set_film(device.make_film(settings));
-        device.prepare(coursework_gpu_scene(settings), settings);
+        device.prepare(coursework_view(settings), settings);
         constexpr std::array<std::uint32_t, 6> tiles = {0, 1, 2, 3, 4, 5};
         device.start({tiles, {}, {0, 4}, true});
         device.finish();

@@ -12,7 +12,7 @@
 
 namespace pt {
 
-struct GpuScene {
+struct View {
     Features features;
     // Positions are relative to the camera. Motions are displacements while the shutter is open.
     std::vector<glm::vec4> words;
@@ -25,9 +25,9 @@ struct GpuScene {
 };
 
 // Throws PT_ERROR_UNSUPPORTED if a nearly flat sphere moves too far.
-GpuScene gpu_scene(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings);
+View view_of(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings);
 
-GpuScene gpu_scene(const DistinctScene &distinct, const PreparedScene &scene, const Camera &start,
-                   const RenderSettings &settings);
+View view_of(const DistinctScene &distinct, const PreparedScene &scene, const Camera &start,
+             const RenderSettings &settings);
 
 } // namespace pt

@@ -1,9 +1,9 @@
-#include "lib/view/gpu_scene.h"
+#include "lib/view/view.h"
 
 #include "lib/base/mixed.h"
 #include "lib/view/lamp_tree_words.h"
 #include "lib/view/light_spots.h"
-#include "lib/view/ray_start.h"
+#include "lib/view/projection.h"
 #include "lib/view/scene_blocks.h"
 #include "lib/view/seen_scene.h"
 #include "lib/view/twins.h"
@@ -170,7 +170,7 @@ std::vector<glm::vec4> words_of(const KernelSurfaces &surfaces, const std::vecto
 gpu::FrameConstants frame_constants(const Camera &camera, const RenderSettings &render, double film_unit) {
     const std::uint64_t seed = mixed(render.seed);
     gpu::FrameConstants constants{};
-    constants.camera = camera_view(camera, render);
+    constants.camera = projection_of(camera, render.width, render.height)->rays();
     constants.seed = {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)};
     constants.film_scale = static_cast<float>(1.0 / film_unit);
     return constants;
@@ -192,21 +192,22 @@ std::vector<std::uint32_t> objects_of(const KernelSurfaces &surfaces, const Prep
 
 } // namespace
 
-std::uint32_t GpuScene::object_of(std::uint32_t surface) const {
+std::uint32_t View::object_of(std::uint32_t surface) const {
     if (surface == gpu::NO_SURFACE)
         return PT_NO_OBJECT;
     return surface < objects.size() ? objects[surface] : tree->spheres()[surface - objects.size()];
 }
 
-GpuScene gpu_scene(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings) {
-    const Camera start = starting_ahead(scene.scene, scene.tree.get(), camera, settings);
+View view_of(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings) {
+    const Camera start =
+        projection_of(camera, settings.width, settings.height)->starting_ahead(scene.scene, scene.tree.get());
     SeenScene seen = seen_scene(scene.scene, start);
     require_held_motions(seen, scene.scene, start);
-    return gpu_scene(without_twins(std::move(seen)), scene, start, settings);
+    return view_of(without_twins(std::move(seen)), scene, start, settings);
 }
 
-GpuScene gpu_scene(const DistinctScene &distinct, const PreparedScene &scene, const Camera &start,
-                   const RenderSettings &settings) {
+View view_of(const DistinctScene &distinct, const PreparedScene &scene, const Camera &start,
+             const RenderSettings &settings) {
     const KernelSurfaces surfaces = kernel_surfaces(distinct.seen, scene.tree.get(), start);
     Features features = features_of(distinct, surfaces, scene, start, settings);
     const std::vector<LightSpot> spots = light_spots(surfaces, scene.scene.materials, features);
