@@ -74,6 +74,21 @@ class Render(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "no spheres"):
             pt.render(np.zeros((0, 3)), 1.0)
 
+    def test_projections_have_names(self):
+        def camera(**fields):
+            return pt.Camera((0, 0, 1), (0, 0, 0), **fields)
+
+        parallel = camera(projection="orthographic", vertical_extent=3)
+        self.assertEqual(parallel, camera(projection=pt.Projection.ORTHOGRAPHIC, vertical_extent=3))
+        self.assertEqual(parallel, camera(vertical_extent=3), "calls of 0.3")
+        self.assertNotEqual(parallel, camera(projection="orthographic", vertical_extent=2))
+        self.assertEqual(camera(projection="perspective"), camera())
+        for fields, words in (({"projection": "flat"}, "projection = 'flat': must be one of perspective, orthographic"),
+                              ({"projection": "orthographic"}, "vertical_extent = None: must be > 0"),
+                              ({"projection": "perspective", "vertical_extent": 3}, "vertical_extent = 3: must be None"),
+                              ({"projection": "orthographic", "vertical_fov": 1}, "vertical_fov = 1: must be None")):
+            with self.subTest(fields), self.assertRaisesRegex(ValueError, words):
+                camera(**fields)
 
     def test_numbers_that_cannot_be_used_are_named_as_the_caller_knows_them(self):
         row, radii = POSITIONS.copy(), np.full(len(POSITIONS), 0.1)

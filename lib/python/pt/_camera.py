@@ -16,7 +16,7 @@ from pt._vectors import Vector, vector
 
 @dataclass(frozen=True)
 class Camera:
-    """A pinhole, a thin lens (with an aperture) or parallel rays (with a vertical_extent). Lengths are in scene units.
+    """A pinhole, a thin lens (with an aperture) or parallel rays. Lengths are in scene units.
 
     position          parallel rays start on the plane through it, across the view
     target            middle of the image; must differ from position
@@ -26,6 +26,7 @@ class Camera:
     vertical_extent   full height of the view with parallel rays, in [1e-18, 1e18]
     aperture          diameter of the lens, at most twice the focus; 0 for a pinhole
     focus             depth of the plane in focus; 0 for the distance of target
+    projection        "perspective" or "orthographic", which is parallel rays; by default orthographic with a vertical_extent
     """
 
     position: Vector
@@ -36,15 +37,21 @@ class Camera:
     vertical_extent: float | None = None
     aperture: float = 0.0
     focus: float = 0.0
+    projection: Projection | str | None = None
 
     def __post_init__(self) -> None:
-        if self.vertical_extent is None:
-            object.__setattr__(self, "vertical_fov", math.pi / 4 if self.vertical_fov is None else self.vertical_fov)
-        elif self.vertical_fov is not None:
-            raise ValueError(f"camera.vertical_fov = {self.vertical_fov}: must be None with a vertical_extent, which is "
-                             "for orthographic projections")
-        elif self.vertical_extent == 0.0:
-            raise ValueError("camera.vertical_extent = 0: must be > 0")
+        projection = _projection(self.projection, self.vertical_extent)
+        object.__setattr__(self, "projection", projection)
+        if projection == Projection.ORTHOGRAPHIC:
+            if self.vertical_fov is not None:
+                raise ValueError(f"camera.vertical_fov = {self.vertical_fov}: must be None with a vertical_extent, which is "
+                                 "for orthographic projections")
+            if not self.vertical_extent:
+                raise ValueError(f"camera.vertical_extent = {self.vertical_extent}: must be > 0")
+        elif self.vertical_extent is not None:
+            raise ValueError(f"camera.vertical_extent = {self.vertical_extent}: must be None without an orthographic projection")
+        elif self.vertical_fov is None:
+            object.__setattr__(self, "vertical_fov", math.pi / 4)
         for name in ("position", "target", "up"):
             object.__setattr__(self, name, vector(name, getattr(self, name)))
 
@@ -78,10 +85,6 @@ class Camera:
         """Unit vectors: right and up in the image, and from the target to the camera."""
         return _axes(np.subtract(self.position, self.target), self.up)
 
-    @property
-    def projection(self) -> Projection:
-        return Projection.PERSPECTIVE if self.vertical_extent is None else Projection.ORTHOGRAPHIC
-
     def _scaled(self, scale: float) -> Camera:
         extent = self.vertical_extent
         return replace(self, position=np.multiply(self.position, scale), target=np.multiply(self.target, scale),
@@ -90,11 +93,15 @@ class Camera:
 
     def _section(self) -> dict[str, Any]:
         section: dict[str, Any] = {"position": list(self.position), "look_at": list(self.target), "up": list(self.up)}
-        shutter = {} if tuple(self.shutter) == (0.0, 1.0) else {"shutter": list(self.shutter)}
-        if self.vertical_fov is None:
-            return {**section, "projection": "orthographic", "vertical_extent": self.vertical_extent, **shutter}
+        if self.projection != Projection.PERSPECTIVE:
+            section["projection"] = _projection(self.projection, None).name.lower()
+        if self.vertical_fov is not None:
+            section["vertical_fov"] = math.degrees(self.vertical_fov)
+        if self.vertical_extent is not None:
+            section["vertical_extent"] = self.vertical_extent
         lens = {"aperture": self.aperture, "focus": self.focus} if self.aperture else {}
-        return {**section, "vertical_fov": math.degrees(self.vertical_fov), **lens, **shutter}
+        shutter = {} if tuple(self.shutter) == (0.0, 1.0) else {"shutter": list(self.shutter)}
+        return {**section, **lens, **shutter}
 
     @staticmethod
     def _of_section(section: dict[str, Any]) -> Camera:
@@ -102,7 +109,8 @@ class Camera:
         angle = section.get("vertical_fov")
         first, last = map(float, section.get("shutter", (0.0, 1.0)))
         camera = Camera(section["position"], section["look_at"], section.get("up", (0.0, 1.0, 0.0)),
-                        vertical_fov=None if angle is None else math.radians(angle), shutter=(first, last), **others)
+                        vertical_fov=None if angle is None else math.radians(angle), shutter=(first, last),
+                        projection=section.get("projection"), **others)
         if not all(map(math.isfinite, (*camera.position, *camera.target, *camera.up, angle or 0.0, *others.values(), first,
                                        last))):
             raise ValueError("camera: must be finite")
@@ -110,10 +118,20 @@ class Camera:
 
     def _struct(self) -> structs.pt_camera:
         shutter_open, shutter_close = self.shutter
-        return structs.pt_camera(projection=self.projection, position=self.position, target=self.target, up=self.up,
+        return structs.pt_camera(projection=_projection(self.projection, None), position=self.position, target=self.target, up=self.up,
                                  vertical_fov=self.vertical_fov or 0.0, shutter_open=shutter_open,
                                  shutter_close=shutter_close, vertical_extent=self.vertical_extent or 0.0,
                                  aperture=self.aperture, focus=self.focus)
+
+
+def _projection(given: Projection | str | None, vertical_extent: float | None) -> Projection:
+    if given is None:
+        return Projection.PERSPECTIVE if vertical_extent is None else Projection.ORTHOGRAPHIC
+    if isinstance(given, Projection):
+        return given
+    if given not in (names := [name.lower() for name in Projection.__members__]):
+        raise ValueError(f"camera.projection = {given!r}: must be one of {', '.join(names)}")
+    return Projection[given.upper()]
 
 
 def _axes(direction: Vector, up: Vector

@@ -211,10 +211,10 @@ def _material(read: structs.pt_material) -> Material:
 
 
 def _camera(read: structs.pt_camera) -> Camera:
-    is_parallel = read.projection == Projection.ORTHOGRAPHIC
     return Camera(tuple(read.position), tuple(read.target), tuple(read.up) if any(read.up) else (0.0, 1.0, 0.0),
-                  vertical_fov=None if is_parallel else read.vertical_fov or None, shutter=(read.shutter_open, read.shutter_close),
-                  vertical_extent=read.vertical_extent if is_parallel else None, aperture=read.aperture, focus=read.focus)
+                  vertical_fov=read.vertical_fov or None, shutter=(read.shutter_open, read.shutter_close),
+                  vertical_extent=read.vertical_extent or None, aperture=read.aperture, focus=read.focus,
+                  projection=Projection(read.projection))
 
 
 def _settings(read: structs.pt_render) -> RenderSettings:

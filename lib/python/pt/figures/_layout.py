@@ -117,7 +117,8 @@ class Layout:
             height = float(max(extents.size[1], extents.size[0] / aspect)) / (1.0 - 2.0 * MARGIN)
             distance = float(extents.size[2]) + height
             position = center - distance * forward
-            camera = Camera(position, position + distance * forward, axes[1], vertical_extent=height)
+            camera = Camera(position, position + distance * forward, axes[1], vertical_extent=height,
+                            projection="orthographic")
         else:
             position = apex(reaches[7:11], axes, pyramid(view.tangents))
             if view.spin is not None:
