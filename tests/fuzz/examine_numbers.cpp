@@ -85,8 +85,8 @@ void require_scene(const pt::Scene &scene) {
 }
 
 void require_camera(const pt::Camera &camera) {
-    // The error is 5 * 2^-53 / 2^-26 at the smallest angle between `up` and the view (camera_rules.cpp). The angle between
-    // two such vectors has twice this error.
+    // The error is 5 * 2^-53 / 2^-26 at the smallest angle between `up` and the view (camera_rules.cpp). The angle
+    // between two such vectors has twice this error.
     constexpr double rounding = 10 * 0x1p-27;
     require(are_lengths(camera.position), "the camera's position is made of lengths");
     require(is_unit(camera.forward) && is_unit(camera.right) && std::abs(glm::length(camera.up) - 1.0) <= rounding,
