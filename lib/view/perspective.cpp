@@ -134,8 +134,8 @@ private:
     }
 
     // The cone's direction nearest to the center hits the ball first. With b = d cos(angle), the distance is b -
-    // sqrt(r^2 - d^2 sin^2(angle)) = (d^2 - r^2) / (b + sqrt(r^2 - d^2 sin^2(angle))). The second form is precise for
-    // small distant balls.
+    // sqrt(r^2 - d^2 sin^2(angle)) = (d^2 - r^2) / (b + sqrt(r^2 - d^2 sin^2(angle))). The second form avoids
+    // cancellation for small distant balls.
     double depth_of_ball(const glm::dvec3 &center, double radius) const override {
         const double distance = glm::length(center);
         const double power = (distance - radius) * (distance + radius);
@@ -163,7 +163,7 @@ private:
         return (distance * std::cos(farthest) + half_chord) * std::cos(half_angle_);
     }
 
-    std::array<glm::dvec3, 4> corners_; // directions of depth 1
+    std::array<glm::dvec3, 4> corners_; // directions, scaled to 1 along `forward`
     double half_angle_;
 };
 

@@ -88,7 +88,7 @@ public:
 
 protected:
     // Returns a lower bound of the depth of surfaces, or out_of_view. Rays start so far from tree spheres that float32
-    // can decide on which side they are.
+    // can decide on which side they start.
     double first_depth(const Scene &scene, const SphereTree *tree) const;
 
     // The largest distance of rays from the rays that the functions below bound.
