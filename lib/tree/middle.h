@@ -19,9 +19,8 @@ glm::dvec3 middle_of(std::uint32_t count, CenterOf center_of) {
         centers.push_back(center_of(i));
     glm::dvec3 middle;
     for (int axis = 0; axis < 3; ++axis) {
-        std::vector<double> coordinates;
-        for (const glm::dvec3 &center : centers)
-            coordinates.push_back(center[axis]);
+        std::vector<double> coordinates(centers.size());
+        std::ranges::transform(centers, coordinates.begin(), [axis](const glm::dvec3 &center) { return center[axis]; });
         const auto half = coordinates.begin() + static_cast<std::ptrdiff_t>(coordinates.size() / 2);
         std::ranges::nth_element(coordinates, half);
         middle[axis] = *half;

@@ -104,7 +104,8 @@ struct Halves {
 };
 
 inline float nodes_for(std::size_t count) {
-    return static_cast<float>((count + tree_width - 1) / tree_width);
+    const std::size_t nodes = (count + tree_width - 1) / tree_width;
+    return static_cast<float>(nodes);
 }
 
 } // namespace pt
