@@ -1,6 +1,7 @@
 #include "tests/analytic/scenes.h"
 
 #include "cli/scene/scene.h"
+#include "tests/support/data_folder.h"
 
 #include <fstream>
 #include <sstream>
@@ -10,7 +11,7 @@ namespace analytic {
 
 namespace {
 
-const std::string folder = std::string(PT_TEST_DATA_DIR) + "/analytic/";
+const std::string folder = data_folder() + "/analytic/";
 
 std::vector<std::string> fields(const std::string &line) {
     std::vector<std::string> found;

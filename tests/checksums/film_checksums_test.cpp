@@ -3,6 +3,7 @@
 #include "lib/base/digest.h"
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
+#include "tests/support/data_folder.h"
 #include "tests/support/shared_context.h"
 
 #include <pt/film.h>
@@ -109,7 +110,7 @@ protected:
 };
 
 std::vector<std::string> lines_of(const std::string &device) {
-    std::ifstream file(PT_TEST_DATA_DIR "/film_checksums.txt");
+    std::ifstream file(data_folder() + "/film_checksums.txt");
     std::vector<std::string> lines;
     bool is_of_device = false;
     for (std::string line; std::getline(file, line);)

@@ -1,6 +1,7 @@
 #include "lib/film/film_bytes.h"
 
 #include "lib/base/digest.h"
+#include "tests/support/data_folder.h"
 #include "tests/support/expected_error.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +20,7 @@ using Bytes = std::vector<std::byte>;
 
 // Another program wrote this film by FORMAT.md. The first of its two tiles has samples in both parts.
 Bytes golden_film() {
-    std::ifstream file(PT_TEST_DATA_DIR "/film/version-1.ptfilm", std::ios::binary);
+    std::ifstream file(data_folder() + "/film/version-1.ptfilm", std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
     const auto bytes = std::as_bytes(std::span(text));
     return {bytes.begin(), bytes.end()};

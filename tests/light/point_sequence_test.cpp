@@ -1,4 +1,5 @@
 #include "lib/points/point_sequence.h"
+#include "tests/support/data_folder.h"
 
 #include <gtest/gtest.h>
 #include <pt/pt.h>
@@ -44,7 +45,7 @@ struct ExactInverse {
 };
 
 std::vector<ExactInverse> exact_inverses() {
-    std::ifstream file(PT_TEST_DATA_DIR "/radical_inverse.csv");
+    std::ifstream file(data_folder() + "/radical_inverse.csv");
     std::vector<ExactInverse> table;
     std::string line;
     std::getline(file, line);
