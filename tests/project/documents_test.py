@@ -1,3 +1,4 @@
+import csv
 import pathlib
 import re
 import unittest
@@ -143,6 +144,12 @@ class Documents(unittest.TestCase):
             comments = " ".join(re.findall(r"//[^\n]*|/\*.*?\*/", path.read_text(encoding="utf-8"), re.DOTALL))
             names = re.findall(r"([\w-]+\.(?:h|cpp|glsl|comp|py|md|cmake|sh))\b", comments)
             self.assertEqual(sorted(set(names) - files), [], path)
+
+    def test_promises_have_their_tests(self):
+        with open(ROOT / "tests/promises.csv", encoding="utf-8", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertLessEqual(len(rows), 40)
+        self.assertEqual([row["test"] for row in rows if not (ROOT / "tests" / row["test"]).is_file() or not all(row.values())], [])
 
     def test_sources_are_cited(self):
         text, sources = (ROOT / "shaders/README.md").read_text(encoding="utf-8").split("## Sources\n")
