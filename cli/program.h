@@ -2,7 +2,7 @@
 
 namespace cli {
 
-// Runs the command and returns its exit code. As in git, unknown names run `pt-NAME`. Throws Failure.
+// Unknown names run `pt-NAME`, like in git. Throws Failure.
 int run_program(int argument_count, char **arguments);
 
 } // namespace cli

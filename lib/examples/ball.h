@@ -9,7 +9,6 @@
 
 enum { WIDTH = 128, HEIGHT = 96 };
 
-/* Sets scene, camera and the size of the picture. */
 static inline pt_result set_up_ball(pt_context *context) {
     static const pt_material materials[] = {
         {{0.8f, 0.8f, 0.8f}, {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, 0.0f, 0},    /* white, matt */

@@ -42,7 +42,6 @@ static int has_compute(VkPhysicalDevice device, uint32_t *family) {
     return 0;
 }
 
-/* Takes the first device with Vulkan 1.2 and a queue for compute. */
 static VkResult choose_device(own_vulkan *own) {
     VkPhysicalDevice devices[MAX_DEVICES];
     uint32_t count = MAX_DEVICES;

@@ -77,7 +77,6 @@ static pt_result to_bytes(const float *pixels, uint8_t *bytes, uint64_t size_byt
     return pt_display(&display);
 }
 
-/* Returns 1 if the file is complete. */
 static int write_ppm(const char *path, const uint8_t *bytes, size_t size) {
     FILE *file = fopen(path, "wb");
     int whole;

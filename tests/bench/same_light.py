@@ -1,8 +1,5 @@
 """Measures how often pt.compare calls equal light different, which changes it finds, and how many samples this takes.
 
-    PT_LIBRARY=build/lib/libpt.so PT_PROGRAM=build/bin/pt python3 tests/bench/same_light.py [--scenes NAME ...]
-        [--pairs N] [--random SEED] [--changes | --samples]
-
 Without --changes and --samples it tests N pairs of images of equal light for each scene and kind of pair. The images
 have different seeds, and may have different methods and numbers of samples. The scenes are in bench_scenes.py and
 calibration_scenes.py, or with --random in random_scenes.py.
