@@ -21,7 +21,7 @@ from pt.view._code import SHADERS
 
 HOOKS: Final = "trace.glsl"
 HEADER, NUMBER, WORDS, VERTEX, THROUGHPUT, RADIANCE = 1, 2, 3, 4, 5, 6  # kinds of records, as in trace.glsl
-FARTHEST: Final = 1e30  # the library's kernel goes on to a vertex beyond, where a ray meets nothing
+FARTHEST: Final = 1e30  # the library's kernel records a farther vertex if a ray hits nothing
 Doubles = npt.NDArray[np.float64]
 
 
