@@ -123,6 +123,10 @@ Channels lamplight_of_equal_numbers(double first, double last) {
     return light;
 }
 
+double red_lamp_cosine() {
+    return std::cos(floor_lamps()[0].half_angle);
+}
+
 Channels right_lamplight() {
     Channels light{};
     for (const FloorLamp &lamp : floor_lamps())

@@ -35,6 +35,9 @@ Channels lamplight(const Turn &turn, const Weight &weight);
 // heights from `first` to `last`.
 Channels lamplight_of_equal_numbers(double first, double last);
 
+inline constexpr double lamp_count = 5.0;
+double red_lamp_cosine(); // of its half angle; the normal is its axis
+
 // Exact values by form factors of spheres above a plane, sin^2 a cos (Snyder 1996).
 Channels right_lamplight();
 

@@ -10,17 +10,30 @@
 namespace cli {
 namespace {
 
-constexpr double standard_errors = 5.4; // exceeded once in ten million by a normal deviate
+double squared(double x) {
+    return x * x;
+}
 
-// Mean of (a - b)^2 / (m^2 + 0.01) with the mean m of both.
-double relative_difference(const Picture &a, const Picture &b) {
+struct Estimate {
+    double mean;
+    double relative_error; // a standard error
+};
+
+// Mean of (a - b)^2 / (m^2 + 0.01) with the mean m of both. Pixels are independent, but not their colors.
+Estimate relative_difference(const Picture &a, const Picture &b) {
     double sum = 0.0;
-    for (std::size_t i = 0; i < a.radiance.size(); ++i) {
-        const double difference = double{a.radiance[i]} - double{b.radiance[i]};
-        const double mean = 0.5 * (double{a.radiance[i]} + double{b.radiance[i]});
-        sum += difference * difference / (mean * mean + 0.01);
+    double squares = 0.0;
+    for (std::size_t i = 0; i < a.radiance.size(); i += 3) {
+        double of_pixel = 0.0;
+        for (std::size_t channel = i; channel < i + 3; ++channel) {
+            const double mean = 0.5 * (double{a.radiance[channel]} + double{b.radiance[channel]});
+            of_pixel += squared(double{a.radiance[channel]} - double{b.radiance[channel]}) / (mean * mean + 0.01) / 3.0;
+        }
+        sum += of_pixel;
+        squares += of_pixel * of_pixel;
     }
-    return sum / static_cast<double>(a.radiance.size());
+    const double count = static_cast<double>(a.radiance.size()) / 3.0;
+    return {sum / count, std::sqrt(std::max(squares / (sum * sum) - 1.0 / count, 0.0))};
 }
 
 } // namespace
@@ -49,6 +62,28 @@ Measured Picture::mean(const std::string &name, std::size_t channel) const {
     return {name, mean, standard_errors * deviation(channel) / std::sqrt(count) + sample_rounding * std::abs(mean)};
 }
 
+double Picture::variance_error(std::size_t channel) const {
+    const double count = static_cast<double>(radiance.size()) / 3.0;
+    const double middle = mean("", channel).value;
+    double fourth = 0.0;
+    for (std::size_t i = channel; i < radiance.size(); i += 3)
+        fourth += squared(squared(radiance[i] - middle)) / count;
+    const double variance = squared(deviation(channel));
+    return variance > 0.0 ? std::sqrt(std::max(fourth / (variance * variance) - 1.0, 0.0) / count) : 0.0;
+}
+
+Measured Picture::relative_deviation(const std::string &name, std::size_t channel) const {
+    const double value = deviation(channel) / mean("", channel).value;
+    return {name, value, standard_errors * 0.5 * variance_error(channel) * value + sample_rounding};
+}
+
+Measured variance_beside(const std::string &name, const Picture &picture, const Picture &other) {
+    const double variance = squared(other.deviation(0));
+    const double ratio = squared(picture.deviation(0)) / variance;
+    const double relative_bound = standard_errors * std::hypot(picture.variance_error(0), other.variance_error(0));
+    return {name, ratio, relative_bound * ratio + squared(sample_rounding * picture.mean("", 0).value) / variance};
+}
+
 CourseKernels::CourseKernels(std::string shader_dir, std::string device) :
     device_(std::move(device)),
     edited_(create_info(device_, shader_dir)) {}
@@ -75,10 +110,10 @@ Measured CourseKernels::samples_needed(const std::string &name, SceneFile scene)
         }
         return relative_difference(pictures[0], pictures[1]);
     };
-    // The error of a mean over n values has a relative deviation of about sqrt(2 / n), more where few pixels dominate.
-    constexpr double relative_bound = 0.2;
-    const double ratio = error(edited_) / error(built_in());
-    return {name, ratio, relative_bound * ratio};
+    const Estimate edited = error(edited_);
+    const Estimate library = error(built_in());
+    const double ratio = edited.mean / library.mean;
+    return {name, ratio, standard_errors * std::hypot(edited.relative_error, library.relative_error) * ratio};
 }
 
 LightVerdict CourseKernels::compare(const SceneFile &scene) {

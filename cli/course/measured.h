@@ -15,6 +15,8 @@
 
 namespace cli {
 
+inline constexpr double standard_errors = 5.4; // exceeded once in ten million by a normal deviate
+
 struct Measured {
     std::string name;
     double value;
@@ -29,8 +31,15 @@ struct Picture {
 
     double at(std::uint32_t x, std::uint32_t y, std::size_t channel) const;
     Measured mean(const std::string &name, std::size_t channel) const;
-    double deviation(std::size_t channel) const; // standard deviation over the pixels
+    double deviation(std::size_t channel) const;      // standard deviation over the pixels
+    double variance_error(std::size_t channel) const; // relative standard error of the square of deviation()
+
+    // The standard deviation over the pixels divided by their mean.
+    Measured relative_deviation(const std::string &name, std::size_t channel) const;
 };
+
+// Quotient of the variances over the pixels, in red.
+Measured variance_beside(const std::string &name, const Picture &picture, const Picture &other);
 
 class CourseKernels {
 public:

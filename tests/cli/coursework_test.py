@@ -8,6 +8,13 @@ DIFFERENCES = ("1-emission", "2-directions", "3-throughput", "4-numbers", "5-fil
 # Steps that must be right after a difference. By default this is the difference's own step.
 STEPS = {"6b-lamps": ("6b", "6c")}
 
+ASKING = """for (uint lamp = 0u; lamp < LAMP_COUNT; ++lamp) {
+        SeenLamp cone = seen_lamp(lamp, hit.position);
+        vec3 direction = random_lamp_direction(cone);
+        float cosine = geometric_term(hit.normal, direction);
+        if (cosine > 0.0 && nearest(Ray(hit.position, direction)).surface == lamp)
+            light +="""
+
 # Each row has the difference, the right code, the wrong code, and the mistake's name in the verdict.
 MISTAKES = (
     ("1-emission", "{ return material.emission; }", "{ return pow(material.emission, vec3(1.0 / 2.2)); }", "gamma twice"),
@@ -25,10 +32,15 @@ MISTAKES = (
     ("4-numbers", "SAMPLER == SAMPLER_HALTON ? 0.0 : unit_number(of_pixel)", "0.0", "pixel shift missing"),
     ("4-numbers", "digit = 1.0 / float(base)", "digit = float(1u / base)", "integer division"),
     ("4-numbers", "PRIMES[dimension - 1u]", "PRIMES[0]", "equal numbers in all dimensions"),
+    ("4-numbers", "SAMPLER == SAMPLER_HALTON ? 0.0 : unit_number(of_pixel)", "unit_number(of_pixel)", "the sampler halton is shifted too"),
+    ("4-numbers", "if (SAMPLER == SAMPLER_RANDOM || dim", "if (SAMPLER <= SAMPLER_HALTON || dim", "the sampler halton is still random"),
     ("5-filter", "image_place(frame.camera, pixel, place)", "image_place(frame.camera, pixel, place + 0.5)", "half a pixel off"),
     ("6a-cosine", "max(cosine, 1.0e-6) / PI", "max(cosine, 1.0e-6) / (2.0 * PI)", "2 pi instead of pi"),
     ("6b-lamps", "if (!ASKS_LAMPS || length == 1u || hit.surface >= LAMP_COUNT)\n", "", "emission counted twice"),
     ("6b-lamps", "surface == lamp)", "surface < 99u)", "no shadows"),
+    ("6b-lamps", "const bool ASKS_LAMPS = ", "const bool ASKS_LAMPS = false && ", "lamps are met by chance"),
+    ("6b-lamps", ASKING, ASKING.replace("for (uint lamp = 0u; lamp < LAMP_COUNT", """uint chosen = min(uint(next_number() * LAMP_COUNT), LAMP_COUNT - 1u);
+    for (uint lamp = chosen; lamp == chosen""").replace("light +=", "light += float(LAMP_COUNT) *"), "lamps chosen alike"),
     ("7-motion", "time = next_number();", "time = 0.5;", "one time for all samples"),
 )
 # A mistake whose error no pattern predicts.

@@ -1,0 +1,27 @@
+// Measurements and values that several steps share.
+#pragma once
+
+#include "cli/course/course_scene.h"
+
+namespace cli {
+
+using Values = std::vector<Range>;
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+
+Values joined(Values first, const Values &more);
+Values exact(const Channels &channels, double factor = 1.0);
+Values near(const Channels &channels);
+Values any_values(std::size_t count);
+
+Weight scaled_cosine(double scale);
+
+std::vector<Measured> means(const Picture &picture, const std::string &what);
+
+inline constexpr std::uint32_t floor_samples = 64;
+
+Picture floor_picture(const CourseKernels &kernels, std::uint32_t estimator);
+std::vector<Measured> floor_means(const CourseKernels &kernels, std::uint32_t estimator);
+Measured ball_mean(const CourseKernels &kernels, std::uint32_t estimator);
+
+} // namespace cli
