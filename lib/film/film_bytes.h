@@ -79,7 +79,7 @@ public:
 
     const FilmHeader &header() const { return header_; }
 
-    // Reads consecutive pixels of a tile. Throws PT_ERROR_INCOMPATIBLE if the tile's samples cannot have these sums.
+    // Throws PT_ERROR_INCOMPATIBLE if the tile's samples cannot have these sums.
     void read(std::size_t tile, std::uint64_t first_pixel, PixelSums &sums) const;
 
 private:

@@ -36,7 +36,7 @@ std::string read_source(const fs::path &path) {
     } catch (const platform::InputError &error) {
         throw std::runtime_error(path.string() + ": " + error.what());
     }
-    constexpr std::string_view byte_order_mark = "\xef\xbb\xbf"; // some editors add it
+    constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
     if (text.starts_with(byte_order_mark))
         text.erase(0, byte_order_mark.size());
     return text;

@@ -1,5 +1,4 @@
-// Sums the films of several devices in the first device's memory (add.comp). The other films are copied through host
-// memory.
+// Sums the films of several devices in the first device's memory (add.comp).
 #pragma once
 
 #include "lib/kernel/device_film.h"

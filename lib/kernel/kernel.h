@@ -50,7 +50,7 @@ public:
     // At most queue_depth slices may be running.
     vulkan::Device::Ticket start(const TileSlice &slice, bool on_cleared_film, const Behind &behind = {});
 
-    // Waits for a slice. Returns its seconds as vulkan::Device::finish() does.
+    // Returns seconds as vulkan::Device::finish() does.
     double finish(vulkan::Device::Ticket ticket, double expected_seconds = 0.0);
 
 private:

@@ -82,7 +82,7 @@ public:
     // Nothing may be running.
     const TileSamples &samples() const { return samples_; }
 
-    // Whether the last submission also estimated the error. Only possible with a single device.
+    // Whether the last submission also estimated the error.
     bool has_estimate() const { return has_estimate_; }
 
 private:

@@ -180,7 +180,7 @@ BufferWriter &RenderDevice::buffer_writer() {
     return *buffer_writer_;
 }
 
-// The path tracer's kernel owns the scene's buffers and checks whether the device has room for them.
+// The path tracer's kernel owns the scene's buffers.
 void RenderDevice::read_first_hits(const std::shared_ptr<const View> &view, const RenderSettings &settings,
                                    const FirstHitQuery &query, const FirstHits::Receive &receive) {
     prepare(view, settings);

@@ -82,7 +82,6 @@ public:
 
     void prepare();
 
-    // Returns PT_OK, PT_CANCELLED or PT_TARGET_REACHED.
     pt_result accumulate(const pt_accumulate_info &wanted);
 
     // Returns PT_PENDING if samples are running, or PT_TARGET_REACHED.

@@ -20,7 +20,7 @@ struct Material {
     glm::vec3 specular;
     glm::vec3 emission;
     float glossiness;
-    bool hidden = false; // hidden from the camera
+    bool hidden = false;
 };
 
 inline bool emits(const Material &material) {

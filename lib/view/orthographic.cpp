@@ -1,4 +1,3 @@
-// Parallel rays.
 #include "lib/base/error.h"
 #include "lib/view/projection.h"
 #include "lib/view/seen_scene.h"

@@ -1,4 +1,3 @@
-// Rays from a pinhole or a thin lens.
 #include "lib/base/scaled_vector.h"
 #include "lib/view/projection.h"
 #include "lib/view/seen_scene.h"
@@ -114,7 +113,6 @@ private:
         view.start_scale = static_cast<float>(pixel_side(camera_.start_distance));
     }
 
-    // Lens rays are at most this far from the pinhole ray.
     double aside() const override { return camera_.lens_radius; }
 
     // The depth -offset / (normal . direction) is least at a corner.

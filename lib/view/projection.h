@@ -91,7 +91,7 @@ protected:
     // can decide on which side they start.
     double first_depth(const Scene &scene, const SphereTree *tree) const;
 
-    // The largest distance of rays from the rays that the functions below bound.
+    // The functions below bound the pinhole rays. Lens rays are at most this far from them.
     virtual double aside() const { return 0.0; }
     virtual double depth_of_plane(const CurvedPlane &plane) const = 0;
     virtual double depth_of_ball(const glm::dvec3 &center, double radius) const = 0;
@@ -121,7 +121,7 @@ struct ProjectionKind {
 extern const ProjectionKind perspective;
 extern const ProjectionKind orthographic;
 
-// By PT_PROJECTION_*.
+// Indexed by PT_PROJECTION_*.
 inline constexpr const ProjectionKind *projection_kinds[] = {&perspective, &orthographic};
 
 inline std::unique_ptr<Projection> projection_of(const Camera &camera, std::uint32_t width, std::uint32_t height) {

@@ -91,7 +91,7 @@ struct Window {
     std::uint32_t row_count;
 };
 
-// Squares of both radii are added, because they are proportional to variances.
+// Squares of radius and blur are added, because they are proportional to variances.
 Disc disc_of(const ImagePlace &place, double radius, const Window &window) {
     const double seen_radius = place.scale * radius;
     return {place.x, place.y - window.first_row, std::hypot(seen_radius, place.blur),

@@ -5,7 +5,6 @@ namespace platform {
 
 const char *const denoiser_file = "OpenImageDenoise.dll";
 
-// Loads the Vulkan loader on demand, so that a message can say what to install.
 PFN_vkGetInstanceProcAddr vulkan_functions() {
     static void *const loader = load_module("vulkan-1.dll");
     return loader ? reinterpret_cast<PFN_vkGetInstanceProcAddr>(find_function(loader, "vkGetInstanceProcAddr"))
