@@ -1,4 +1,3 @@
-// Directions in long double, and bounds of their errors in float32.
 #pragma once
 
 #include "tests/accuracy/comparison.h"

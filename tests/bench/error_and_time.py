@@ -104,7 +104,6 @@ class Bench:
         return np.array(self.renderer.image(), np.float64).reshape(*self.size[::-1], 3)
 
     def reference(self):
-        """The error of a rendered reference comes from the difference of its halves."""
         if self.options.reference:
             image = read_exr(self.options.reference)
             if image.shape[1::-1] != tuple(self.size):

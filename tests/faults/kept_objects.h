@@ -1,4 +1,3 @@
-// Reuses the instance, devices and pipelines, because they are slow to create.
 #pragma once
 
 #include <vulkan/vulkan_core.h>

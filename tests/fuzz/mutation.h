@@ -1,4 +1,3 @@
-// The interface between a target and its runner, which is libFuzzer or replay.cpp.
 #pragma once
 
 #include <cstddef>

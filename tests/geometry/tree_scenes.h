@@ -1,4 +1,3 @@
-// Each kind of scene is difficult for a tree in another way.
 #pragma once
 
 #include "lib/scene/camera.h"

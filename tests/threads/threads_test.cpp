@@ -1,4 +1,3 @@
-// The preset `thread` adds ThreadSanitizer.
 #include "tests/support/context_calls.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/support/image_target.h"
