@@ -48,7 +48,7 @@ class Kinds(unittest.TestCase):
     def test_given_options_win(self):
         options = styled(peptide(), Options(radius=0.5, where="chain A", color="resid"), [])
         self.assertEqual((options.radius, options.where, options.color, options.box), (0.5, "chain A", "resid", "none"))
-        options = styled(peptide(), Options(), [])
+        options = styled(peptide(), Options(where=[]), [])
         self.assertEqual((options.radius, options.where, options.color), ("van-der-waals", ("not water",), "chain+element"))
         plain = Options(style="matte")
         self.assertEqual(styled(peptide(), plain, []), plain)

@@ -64,7 +64,7 @@ def styled(particles: Particles, options: Options, notes: list[str]) -> Options:
 
 
 def _is(value: Any, default: Any) -> bool:
-    return value is default or type(value) is type(default) and bool(value == default)
+    return value is default or (isinstance(value, list) and not value) or type(value) is type(default) and bool(value == default)
 
 
 def kind_of(particles: Particles, options: Options) -> str:
