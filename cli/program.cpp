@@ -69,7 +69,7 @@ int run_program(int argument_count, char **arguments) {
             return *code;
         if (const std::string_view package = package_of(name); !package.empty())
             throw Failure(ExitCode::usage, concat("there is no pt-", name,
-                                                  " in the PATH, which comes with the Python package: "
+                                                  " in the PATH; it comes with the Python package: "
                                                   "pip install ",
                                                   package));
     }

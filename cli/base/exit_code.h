@@ -33,13 +33,13 @@ inline constexpr const char *exit_code_help =
     "  6    a file could not be read or written\n"
     "  7    the target error was not reached, or samples that merge --spp asks for are missing; all files\n"
     "       were written\n"
-    "  8    the images that were compared differ by more than a limit, or in their light; a wrong step\n"
-    "  9    too few samples to tell whether they show the same light\n"
+    "  8    compared images differ by more than a limit, or in their light; or a step is wrong\n"
+    "  9    too few samples to tell whether images show the same light\n"
     "  75   --time came first; all files were written, and --resume continues from the checkpoint\n"
-    "  129  SIGHUP: the samples done so far were written, if there were any, and the checkpoint\n"
+    "  129  SIGHUP: the samples so far were written, if there were any, and the checkpoint\n"
     "  130  SIGINT: the same\n"
     "  143  SIGTERM: the same\n"
-    "A waiting --watch that such a signal ends exits with 0.";
+    "If such a signal ends a waiting --watch, the exit code is 0.";
 
 class Failure : public std::runtime_error {
 public:

@@ -80,8 +80,8 @@ std::filesystem::path AtomicFile::target_of(const std::string &path) {
     for (int i = 0; i < most_links && is_symlink(fs::symlink_status(target, error)); ++i) {
         refuse_if(!platform::may_follow(target),
                   "cannot write " + path + ": the link " + target.string() +
-                      " is another user's, in a folder where everybody may write; only your own links and those of "
-                      "the folder's owner are followed there",
+                      " belongs to another user, and everybody may write in its folder; use a link of your own or of "
+                      "the folder's owner",
                   ExitCode::file);
         target = target.parent_path() / std::filesystem::read_symlink(target, error);
     }
@@ -160,8 +160,8 @@ void require_outside(const NamedFile &folder, const std::vector<NamedFile> &outp
     for (const NamedFile &output : outputs) {
         const bool is_file = !output.path.empty() && output.path != standard_stream;
         refuse_if(is_file && fs::equivalent(folder_of(AtomicFile::target_of(output.path)), folder.path, ignored),
-                  concat(output.role, " ", output.path, ": is in the folder of ", folder.role, " ", folder.path,
-                         ", whose files are read"));
+                  concat(output.role, " ", output.path, ": must not be in the folder ", folder.path, " of ",
+                         folder.role, ", whose files are inputs"));
     }
 }
 

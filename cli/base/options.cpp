@@ -214,7 +214,7 @@ std::string usage_reason(const CLI::App &program, const CLI::ParseError &error) 
     const std::string see = " (see pt " + command.get_name() + " --help)";
     const std::vector<std::string> before = program.remaining();
     if (!before.empty())
-        return before.front() + ": stands before the command; its options stand after it" + see;
+        return before.front() + ": must come after the command" + see;
     return reason_of(command, error) + see;
 }
 

@@ -91,8 +91,7 @@ void check_outputs(const CompareOptions &options) {
               "--difference " + options.difference + ": the name must end in .png");
     const bool has_kernels = !options.kernels.shader_dir.empty();
     refuse_if(has_kernels != options.reference.empty(),
-              has_kernels ? "--shader-dir: compares the kernels of a SCENE, without REFERENCE"
-                          : "REFERENCE is required");
+              has_kernels ? "--shader-dir: needs a scene and no REFERENCE" : "REFERENCE is required");
 }
 
 DecodedImage read_film_image(const std::string &path) {
@@ -151,7 +150,7 @@ std::string size_text(const DecodedImage &image) {
 }
 
 const char *kind_text(const DecodedImage &image) {
-    return image.is_float ? "radiance" : "numbers for a display";
+    return image.is_float ? "radiance" : "numbers for displays";
 }
 
 void require_comparable(const DecodedImage &image, const DecodedImage &reference) {
@@ -159,8 +158,8 @@ void require_comparable(const DecodedImage &image, const DecodedImage &reference
               concat(image.path, " is ", size_text(image), ", ", reference.path, " is ", size_text(reference),
                      ": they must be equally large"));
     refuse_if(image.is_float != reference.is_float,
-              concat(image.path, " holds ", kind_text(image), ", ", reference.path, " ", kind_text(reference),
-                     ": they must be of one kind"));
+              concat(image.path, " holds ", kind_text(image), ", ", reference.path, " holds ", kind_text(reference),
+                     ": both must hold the same"));
 }
 
 struct CompareReport {
@@ -214,7 +213,7 @@ struct CompareReport {
         if (difference.maximum > 0.0)
             text += concat(" at ", x(), ",", y(), " in ", channel());
         if (difference.not_finite > 0)
-            text += concat("\nnot finite    ", difference.not_finite, " pixels, left out above");
+            text += concat("\nnot finite    ", difference.not_finite, " pixels, not counted above");
         return text + "\n" + (verdict ? light_text(*verdict) : "");
     }
 };
@@ -282,11 +281,11 @@ int run_compare(const CompareOptions &options) {
 constexpr const char *compare_help =
     "For values x of the image and r of the reference, mse is the mean of (x-r)^2 over pixels and\n"
     "channels, relative_mse the mean of (x-r)^2/(r^2+0.01), and maximum the largest |x-r|. Both files\n"
-    "hold radiance, or both values for displays, from 0 to 1. Pixels that are not finite in either image\n"
-    "are left out and counted; any limit is exceeded then.\n"
-    "Two films, or two .exr with the layer sample-count, are also tested for the same light: 0 if no\n"
-    "difference stands out of the noise, 8 if one does, 9 if a change of --min-change may be missed.\n"
-    "With --shader-dir the kernels in a folder and the library's render SCENE until the test decides.\n";
+    "hold radiance, or both hold values for displays, from 0 to 1. Pixels that are not finite in either\n"
+    "image are left out and counted, and exceed any limit.\n"
+    "Two films, or two .exr with the layer sample-count, are also tested for the same light. The exit code\n"
+    "is 0 if no difference exceeds the noise, 8 if one does, and 9 if a change of --min-change may be missed.\n"
+    "With --shader-dir the kernels in a folder and the library's kernels render SCENE until the test decides.\n";
 
 } // namespace
 
@@ -302,7 +301,7 @@ void add_compare_command(CLI::App &program, Run &chosen) {
              "Compare this layer of both files (default: the channels R, G and B)");
     add_text(command, "--json", options.json, "JSON", "Write the figures as JSON; - is standard output");
     add_text(command, "--difference", options.difference, "PNG",
-             "Write the tiles' differences in standard deviations: red brighter, blue darker, full at 8");
+             "Write the tiles' differences in standard deviations: brighter is red, darker is blue, saturated at 8");
     add_quiet(command, options.quiet);
     command.option_defaults()->group("Test of the light");
     add_number<double>(command, "--rate", {.least = 1e-12, .largest = 0.5}, options.rule.rate,
@@ -314,7 +313,7 @@ void add_compare_command(CLI::App &program, Run &chosen) {
     };
     command
         .add_option_function<std::string>("--min-change", read_change,
-                                          "Exit with 9 if a change by this share of all light may be missed, like 1% "
+                                          "Exit with 9 if a change of all light by this much may be missed, like 1% "
                                           "(default: 100%, with --shader-dir 1%)")
         ->type_name("SHARE");
     add_shader_dir(command, options.kernels.shader_dir);

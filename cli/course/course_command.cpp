@@ -118,10 +118,10 @@ int run_course(const CourseOptions &options) {
 }
 
 constexpr const char *course_help =
-    "DIR gets the kernel to begin with, pathtrace.comp, the files that it includes, and scenes; it must be\n"
-    "empty or new. --check exits with 0 if the step is right and with 8 if it is not, and names the usual\n"
-    "mistake whose predicted values fit. --grade judges all steps of one kernel; comments and names are\n"
-    "left to the reader. shaders/COURSEWORK.md describes the steps.\n";
+    "The command fills DIR, which must be empty or new, with the kernel to begin with (pathtrace.comp), the\n"
+    "files that it includes, and scenes. --check exits with 0 if the step is right and with 8 if it is not,\n"
+    "and names the usual mistake whose predicted values fit. --grade judges all steps of one kernel, but not\n"
+    "its comments and names. shaders/COURSEWORK.md describes the steps.\n";
 
 } // namespace
 

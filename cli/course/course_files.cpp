@@ -17,8 +17,8 @@ void write_course(const std::string &folder) {
     namespace fs = std::filesystem;
     std::error_code error;
     const bool exists = fs::exists(folder, error);
-    refuse_if(exists && !fs::is_directory(folder, error), folder + ": is no folder", ExitCode::file);
-    refuse_if(exists && !fs::is_empty(folder, error), folder + ": is not empty", ExitCode::file);
+    refuse_if(exists && !fs::is_directory(folder, error), folder + ": must be a folder", ExitCode::file);
+    refuse_if(exists && !fs::is_empty(folder, error), folder + ": must be empty", ExitCode::file);
     for (const CourseFile &file : course_files()) {
         const fs::path path = fs::path(folder) / file.path;
         fs::create_directories(path.parent_path(), error);

@@ -37,7 +37,7 @@ RenderReport even_report(const std::string &path, const FilmHandle &film) {
     const pt_stats &stats = report.stats;
     refuse_if(stats.sample_count != stats.max_sample_count || stats.sample_count == 0,
               concat(path, ": has ", stats.sample_count, " to ", stats.max_sample_count,
-                     " samples per pixel: must have the same number in all; render it without --error"));
+                     " samples per pixel: must have the same number in all pixels; render it without --error"));
     return report;
 }
 
@@ -61,12 +61,12 @@ Halves read_halves(const DenoiseOptions &options) {
     const RenderReport other = even_report(options.second, second);
     refuse_if(report.render.seed == other.render.seed,
               concat(options.second, ": seed = ", other.render.seed,
-                     ": must differ from the other film's, as parts of one sequence depend on each other"));
+                     ": must differ from the other film's, because parts of one sequence depend on each other"));
     first.require_same_picture(options.second, bytes);
     refuse_if(report.window != other.window || report.stats.sample_count != other.stats.sample_count,
               concat(options.second, ": is ", window_text(other.window), " with ", other.stats.sample_count,
                      " samples per pixel, ", options.first, " is ", window_text(report.window), " with ",
-                     report.stats.sample_count, ": must be alike"));
+                     report.stats.sample_count, ": both must be equal"));
     return {report, image_of(first, report), image_of(second, other)};
 }
 
@@ -76,7 +76,7 @@ DecodedImage read_guides(const std::string &path, const ImageWindow &window) {
                          guides.height};
     const ImageWindow other{part, guides.full_width, guides.full_height};
     refuse_if(other != window,
-              concat(path, ": is ", window_text(other), ": must be ", window_text(window), ", as the films are"));
+              concat(path, ": is ", window_text(other), ": must be ", window_text(window), " like the films"));
     return guides;
 }
 
@@ -117,9 +117,9 @@ int run_denoise(const DenoiseOptions &options) {
 }
 
 constexpr const char *denoise_help =
-    "The films are those of `pt render --film`, `--checkpoint` or `pt merge` with other --seed and all else\n"
-    "equal, without --error. Each shows the filter's error on the other, so the result states its error,\n"
-    "as by `pt render --denoise`. Needs no device.\n";
+    "The films come from `pt render` (--film or --checkpoint) or `pt merge`. They must differ only in --seed,\n"
+    "and be rendered without --error. Each film shows the filter's error on the other, so the error of the\n"
+    "result is known, as with `pt render --denoise`. No device is needed.\n";
 
 } // namespace
 
@@ -127,8 +127,10 @@ void add_denoise_command(CLI::App &program, Run &chosen) {
     const auto [command, options] =
         add_command(program, chosen, "denoise", "Denoise a picture kept as films", denoise_help, &run_denoise);
     add_text(command, "FIRST", options.first, "FIRST", "Film with half of the samples")->required();
-    add_text(command, "SECOND", options.second, "SECOND", "Film of the same picture by another seed")->required();
-    add_text(command, "GUIDES", options.guides, "GUIDES", "Image of it by `--layers albedo,normal` (.exr)")->required();
+    add_text(command, "SECOND", options.second, "SECOND", "Film of the same picture with another seed")->required();
+    add_text(command, "GUIDES", options.guides, "GUIDES",
+             "Image of the same picture with the layers albedo and normal (.exr)")
+        ->required();
     add_image_outputs(command, options.output);
     add_text(command, "--denoise", options.library, "FILE", "Open Image Denoise 2")->capture_default_str();
     add_scene_options(command, options.display, false);

@@ -56,7 +56,7 @@ std::size_t unpacked_size(platform::InputFile &file, const std::string &path) {
     const std::string_view head = file.first(longest_head);
     const unsigned long long size = ZSTD_getFrameContentSize(head.data(), head.size());
     if (size == ZSTD_CONTENTSIZE_UNKNOWN || size == ZSTD_CONTENTSIZE_ERROR || size / most_ratio > file.size())
-        refuse(path, "damaged or cut short: the header of its zstd frame is no film's");
+        refuse(path, "damaged or cut short: the header of its zstd frame is not a film's");
     return size;
 }
 

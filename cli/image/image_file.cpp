@@ -59,7 +59,8 @@ void check_image_names(std::span<const std::string> paths, std::optional<ImageFo
               "-o -: standard output needs --format, one of " + listed(image_format_names));
     refuse_if(to_standard_output && platform::is_terminal(platform::standard_output),
               "-o -: standard output is a terminal; send it to a file or a program");
-    refuse_if(format && !to_standard_output, "--format: is for -o - alone; a file's name states its format");
+    refuse_if(format && !to_standard_output,
+              "--format: must be used with `-o -`; the name of a file states its format");
     for (const std::string &path : paths)
         refuse_if(path != standard_stream && !image_format(path),
                   "-o " + path + ": the name must end in one of " + extensions(any_format));
@@ -84,8 +85,8 @@ std::filesystem::path module_path() {
     std::filesystem::path path = (folder / platform::module_file("pt-image-file")).lexically_normal();
     std::error_code ignored;
     refuse_if(!std::filesystem::exists(path, ignored),
-              "other formats than PNG need the image module, and there is no " + path.string() +
-                  ": the package pt-image-formats and builds with libopenimageio-dev have it, wheels do not",
+              "formats other than PNG need the image module, and there is no " + path.string() +
+                  "; install the package pt-image-formats, or build with libopenimageio-dev (wheels lack the module)",
               ExitCode::file);
     return path;
 }

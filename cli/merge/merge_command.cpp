@@ -148,7 +148,7 @@ std::string missing_text(const MergeReport &report) {
 
 void check_coverage(const FilmHandle &film, const OutputOptions &output) {
     refuse_if(output.alpha && (film.info().flags & PT_RENDER_COVERAGE) == 0,
-              "--alpha: the films have no alpha; `pt render --alpha` makes films that have");
+              "--alpha: the films have no alpha; render them with `pt render --alpha`");
 }
 
 bool write_outputs(const FilmHandle &film, const MergeOptions &options, MergeReport &report) {
@@ -187,9 +187,9 @@ int run_merge(const MergeOptions &options) {
 }
 
 constexpr const char *merge_help =
-    "Samples are added exactly: in any order of films the picture has the bits of one rendering on that\n"
-    "model of device and driver. Needs no device. A film that is damaged, of another picture or repeats\n"
-    "samples is refused, with the difference, and nothing is written.\n";
+    "Samples are added exactly. In any order of films the picture has the bits of one rendering on the same\n"
+    "model of device and driver. No device is needed. A film that is damaged, belongs to another picture or\n"
+    "repeats samples is refused, with the difference, and nothing is written.\n";
 
 } // namespace
 

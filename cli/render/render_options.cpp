@@ -57,7 +57,7 @@ void add_picture_options(CLI::App &command, RenderOptions &options) {
                      "Denoise by the library Open Image Denoise 2, and state the error of the result");
     add_parsed(command, "--crop", options.crop, &parse_rectangle,
                "must be four whole numbers like 10,20,640,480: x, y, width and height",
-               "Render this part of the picture alone, in pixels from its top left corner")
+               "Render only this part of the picture, in pixels from its top left corner")
         ->type_name("X,Y,W,H");
 }
 
@@ -74,8 +74,8 @@ void add_sampling_options(CLI::App &command, RenderOptions &options) {
     add_name(
         command, "--sampling", options.sampling, [](std::string_view name) { return pt::samplings.find(name); },
         "way to sample", pt::samplings.names(),
-        "Take the same samples in all pixels (uniform), or more where they reduce the error most (adaptive, which is "
-        "best with --error; default: best)");
+        "Take the same samples in all pixels (uniform), or more where they reduce the error most (adaptive); the "
+        "default, best, is adaptive with --error");
     add_seconds(command, "--time", options.stopping.time_limit,
                 "Stop after S seconds of sampling, with at least one sample (default: take all samples)");
 }
@@ -87,7 +87,7 @@ void add_lasting_options(CLI::App &command, RenderOptions &options) {
     add_seconds(command, "--checkpoint-every", options.checkpoint_seconds,
                 "Write the checkpoint every S seconds, and at the end (default: 30)");
     command.add_flag("--resume", options.resume,
-                     "Continue from the checkpoint, if there is one, to the same bytes as without a stop");
+                     "Continue from the checkpoint, if there is one; the result has the same bytes as without a stop");
     add_number<std::uint32_t>(command, "--first-sample", natural_number, options.first_sample,
                               "Index of the first sample, for parts of one picture (default: 0)");
 }
@@ -99,9 +99,9 @@ void add_device_options(CLI::App &command, RenderOptions &options) {
                               "Aim for the length of one submission to the device (default: 50)");
     add_number<std::uint32_t>(
         command, "--piece-rows", positive_number, options.piece_rows,
-        "Render so many rows at a time, for less memory on the device (default: all, or as many as its memory holds)");
+        "Render N rows at a time, to use less memory of the device (default: all, or as many as its memory holds)");
     command.add_flag("--validation", options.validation,
-                     "Run with the Khronos validation layer; its messages make the exit code 1");
+                     "Run with the Khronos validation layer; exit with 1 if it reports a message");
 }
 
 void add_live_options(CLI::App &command, RenderOptions &options) {
@@ -128,25 +128,25 @@ void add_animation_options(CLI::App &command, RenderOptions &options) {
 }
 
 constexpr const char *render_help =
-    "The error is estimated from the image itself, once it has 16 samples: rmse is the root of the mean\n"
-    "of (x-r)^2 over pixels and channels for the image x and its limit r, relative_rmse the same of\n"
-    "(x-r)^2/(r^2+0.01). The summary shows relative_rmse and its bounds of 95% confidence; where it\n"
-    "cannot be known well, it is called uncertain, with the reason, and its bounds are wider. --error\n"
-    "stops sampling once the upper one is at or below E. --stats has both with bounds (rmse_low,\n"
-    "rmse_high, ...; null where unknown), uncertain, target_error (null without --error) and\n"
-    "target_reached. The layer standard-error is a radiance, infinite with a single sample.\n\n"
+    "The error is estimated from the image itself, from 16 samples on. For the image x and its limit r,\n"
+    "rmse is the root of the mean of (x-r)^2 over pixels and channels, and relative_rmse the root of the\n"
+    "mean of (x-r)^2/(r^2+0.01). The summary shows relative_rmse and its bounds of 95% confidence. If the\n"
+    "error cannot be known well, it is called uncertain, with the reason, and its bounds are wider. --error\n"
+    "stops sampling once the upper bound is at or below E. --stats has both errors with their bounds\n"
+    "(rmse_low, rmse_high, ...; null where unknown), uncertain, target_error (null without --error) and\n"
+    "target_reached. The layer standard-error is a radiance, and infinite with a single sample.\n\n"
     "--denoise takes half of the samples with each of two seeds, so that each half shows the filter's error\n"
-    "on the other; the stated error is the result's. An .exr keeps the mean of the samples as the layer raw.\n"
-    "With --error or --time it is denoised in rounds of half as many samples again. `pip install pyoidn`\n"
-    "brings the library.\n\n"
-    "With --error or --time, --spp is the most samples of a pixel, by default 65536.\n\n"
-    "--exposure auto brings the average of the picture to middle grey, 0.18 (Reinhard et al. 2002): the\n"
-    "exponential of the mean of the logarithms of its pixels, each the mean of its three channels, without\n"
-    "black ones. It is rounded to hundredths and printed. To compare pictures, give them one number.\n\n"
-    "A file that cannot be written whole keeps its content. The metadata of images have no time: equal\n"
+    "on the other. The stated error is the result's. An .exr keeps the mean of the samples as the layer raw.\n"
+    "With --error or --time it renders and denoises in rounds, each with half as many samples again.\n"
+    "`pip install pyoidn` installs the library.\n\n"
+    "With --error or --time, --spp is the maximum number of samples of a pixel, by default 65536.\n\n"
+    "--exposure auto brings the average of the picture to middle grey, 0.18 (Reinhard et al. 2002). The\n"
+    "average is the geometric mean over pixels that are not black, each the mean of its three channels.\n"
+    "The exposure is rounded to hundredths and printed. To compare pictures, give them one number.\n\n"
+    "If a file cannot be written, its old content stays. The metadata of images have no time, so equal\n"
     "runs give equal files.\n\n"
     "With --watch, a mistake in a scene, its data or a shader is reported once, and the picture stays until\n"
-    "it is corrected. A change stops the rendering under way.\n";
+    "it is corrected. A change stops the current rendering.\n";
 
 } // namespace
 
@@ -193,9 +193,9 @@ void add_output_options(CLI::App &command, OutputOptions &options, std::span<con
         ->type_name(listed(layers, "|") + ",...");
     command.add_flag("--alpha", options.alpha,
                      "Give " + extensions(&ImageFormat::has_alpha, " and ") +
-                         " an alpha channel: the share of a pixel's samples that see a surface");
+                         " an alpha channel: the fraction of a pixel's samples that hit a surface");
     add_text(command, "--film", options.film, "FILM",
-             "Write the film (.ptfilm): the exact sums of the samples, for `pt merge`; -o may be left out then");
+             "Write the film (.ptfilm): the exact sums of the samples, for `pt merge`; -o is then optional");
 }
 
 std::vector<std::uint32_t> RenderOptions::wanted_layers() const {

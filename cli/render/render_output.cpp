@@ -55,14 +55,14 @@ void check_combinations(const RenderOptions &options) {
               "--sampling adaptive: needs --error");
     refuse_if(options.resume && !has_checkpoint, "--resume: needs --checkpoint");
     refuse_if(options.checkpoint_seconds && !has_checkpoint, "--checkpoint-every: needs --checkpoint");
-    refuse_if(options.watch && has_checkpoint, "--checkpoint: a picture under --watch has none");
-    refuse_if(options.watch && !output.film.empty(), "--film: a picture under --watch has none");
+    refuse_if(options.watch && has_checkpoint, "--checkpoint: cannot be used with --watch");
+    refuse_if(options.watch && !output.film.empty(), "--film: cannot be used with --watch");
     refuse_if(options.frames && has_checkpoint,
-              "--checkpoint: not with --frames; --skip-existing continues after the finished frames");
+              "--checkpoint: cannot be used with --frames; --skip-existing continues after the finished frames");
     refuse_if(options.frames && options.preview_seconds,
-              "--preview-every: not with --frames, since an existing file is a finished frame");
+              "--preview-every: cannot be used with --frames, because an existing file means a finished frame");
     refuse_if(options.preview_seconds && without_standard_output(output).images.empty(),
-              "--preview-every: needs the name of a file, which -o gives");
+              "--preview-every: needs -o and the name of a file");
 }
 
 void check_alpha(const OutputOptions &options) {
@@ -72,7 +72,7 @@ void check_alpha(const OutputOptions &options) {
                          extensions(&ImageFormat::has_alpha, " and "), " have"));
     refuse_if(options.alpha && options.images.empty() && options.film.empty(),
               "--alpha: needs --film, or -o and a name in " + extensions(&ImageFormat::has_alpha, " or ") +
-                  ", which have the channel");
+                  ", which have an alpha channel");
 }
 
 void check_denoise(const RenderOptions &options) {
@@ -80,14 +80,15 @@ void check_denoise(const RenderOptions &options) {
         return;
     const auto has = [&](std::uint32_t layer) { return std::ranges::count(options.output.layers, layer) > 0; };
     refuse_if(options.sampling == PT_SAMPLING_ADAPTIVE,
-              "--sampling adaptive: --denoise takes equally many samples in all pixels");
+              "--sampling adaptive: cannot be used with --denoise, which takes equally many samples in all pixels");
     refuse_if(!options.checkpoint.empty() || !options.output.film.empty(),
-              "--checkpoint, --film: a film has the samples of one seed, --denoise takes them by two");
-    refuse_if(options.preview_seconds.has_value(), "--preview-every: --denoise shows what both halves make");
-    refuse_if(options.output.alpha, "--alpha: is the share of the samples, which says nothing of colors by --denoise");
+              "--checkpoint, --film: cannot be used with --denoise, which needs two films; see `pt denoise`");
+    refuse_if(options.preview_seconds.has_value(),
+              "--preview-every: cannot be used with --denoise, which needs both halves of the samples");
+    refuse_if(options.output.alpha, "--alpha: cannot be used with --denoise, which changes colors but not alpha");
     refuse_if(has(PT_QUANTITY_STANDARD_ERROR) || has(PT_QUANTITY_SAMPLE_COUNT),
-              "--layers standard-error, sample-count: are of the samples; the error of --denoise is known for the "
-              "whole picture alone");
+              "--layers standard-error, sample-count: cannot be used with --denoise, whose error is known only for the "
+              "whole picture");
 }
 
 // Refuses to overwrite a checkpoint that this run does not continue.
@@ -128,7 +129,7 @@ void check_names(const OutputOptions &options, const std::vector<NamedFile> &sou
     refuse_if(options.film == standard_stream, "--film -: goes to a file, not to standard output; give its name");
     refuse_if(!options.layers.empty() && !has_format(options, &ImageFormat::is_radiance),
               "--layers: needs -o and a name in " + extensions(&ImageFormat::is_radiance, " or ") +
-                  ", as no other format has layers");
+                  ", because no other format has layers");
     check_alpha(options);
     require_distinct_files(sources, outputs_of(options));
 }

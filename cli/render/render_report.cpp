@@ -40,11 +40,11 @@ double samples_per_second(const RenderReport &report) {
 // Empty if the relative error is reliable.
 std::string uncertainty_text(std::uint32_t uncertain) {
     if ((uncertain & PT_UNCERTAIN_UNMET) != 0)
-        return ", uncertain: few samples meet small lamps, take more";
+        return ", uncertain: few samples hit small lamps, take more";
     if ((uncertain & PT_UNCERTAIN_RELATIVE_RMSE) != 0)
-        return ", uncertain: a few bright pixels make most of it, take more samples";
+        return ", uncertain: a few bright pixels cause most of it, take more samples";
     return (uncertain & PT_UNCERTAIN_UNSEEN) != 0 ? ", uncertain: dark pixels beside bright ones may have light that "
-                                                    "no sample has met, take more samples"
+                                                    "no sample has hit, take more samples"
                                                   : "";
 }
 

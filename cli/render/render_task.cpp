@@ -29,7 +29,7 @@ ImageWindow chosen_window(const std::optional<Rectangle> &crop, const pt_render 
                            crop->height <= render.height - crop->y;
     refuse_if(!is_inside || crop->pixel_count() == 0,
               concat("--crop ", crop->x, ",", crop->y, ",", crop->width, ",", crop->height,
-                     ": must be a part of the picture, of ", window_text(window), " pixels, with at least one"));
+                     ": must be a part of the picture of ", window_text(window), " pixels, with at least one pixel"));
     window.part = *crop;
     return window;
 }

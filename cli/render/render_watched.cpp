@@ -23,7 +23,7 @@ constexpr std::chrono::milliseconds patience{200};
 // Pipes can be read only once.
 void require_files(const RenderOptions &options) {
     const std::vector<std::string> &images = options.output.images;
-    refuse_if(options.frames.has_value(), "--watch: shows one picture, not --frames");
+    refuse_if(options.frames.has_value(), "--watch: cannot be used with --frames");
     refuse_if(std::ranges::find(images, standard_stream) != images.end(),
               "-o -: --watch needs a file, not standard output");
     refuse_if(options.scene == standard_stream, "the scene -: --watch needs a file, not standard input");

@@ -68,7 +68,7 @@ std::optional<std::string> brightening_materials(const SceneFile &scene) {
     if (count == 0)
         return std::nullopt;
     return listed(names) + (count > most_names ? concat(" and ", count - most_names, " more") : "") +
-           ": diffuse + specular = " + formatted("%.3g", largest) + (count == 1 ? "" : " at the most") +
+           ": diffuse + specular = " + formatted("%.3g", largest) + (count == 1 ? "" : " at most") +
            ": more light is reflected than received" + hint;
 }
 
@@ -123,14 +123,14 @@ std::vector<std::string> image_warnings(const RenderReport &report, std::span<co
         const double sample_count = pixel_count * stats.sample_count;
         const double share = static_cast<double>(stats.rejected_samples) / sample_count;
         warnings.push_back(counted(stats.rejected_samples, "sample") + " (" + percent_text(share) +
-                           ") left out: not finite, negative or too bright");
+                           ") were left out: not finite, negative or too bright");
     }
     if (auto below = picture_below_its_target(report, radiance))
         warnings.push_back(std::move(*below));
     if (is_black(radiance) && !is_known_to_be_black(report))
         warnings.emplace_back(
-            "no sample met light: the picture is black, and the stated error of 0 says nothing; is the "
-            "camera inside of a ball, or every lamp behind a surface?");
+            "no sample hit light: the picture is black, and the stated error of 0 says nothing; is the "
+            "camera inside a ball, or every lamp behind a surface?");
     return warnings;
 }
 

@@ -43,7 +43,7 @@ void add_set(CLI::App &command, std::vector<SceneOverride> &overrides) {
     command
         .add_option_function<std::vector<std::string>>(
             "--set", read,
-            "A value in place of the scene's, like camera.vertical_fov=30 or spheres[0].radius=2; may be given again")
+            "Replace a value of the scene, such as camera.vertical_fov=30 or spheres[0].radius=2; may be given again")
         ->expected(1)
         ->take_all()
         ->type_name("PATH=VALUE")

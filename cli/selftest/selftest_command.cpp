@@ -128,9 +128,9 @@ int run_selftest(const SelftestOptions &options) {
 
 constexpr const char *selftest_help =
     "Compares the kernel's functions with double precision, small scenes with closed forms, and images\n"
-    "whose samples were split over calls bit by bit. A bound is what every right device keeps: for\n"
-    "functions by the precision that Vulkan promises; for scenes by that of float32 and their noise,\n"
-    "which fails a right device about once in a million. Paste the output into a report of a fault.\n";
+    "whose samples were split over calls bit by bit. Every correct device keeps the bounds: those of\n"
+    "functions follow from the precision that Vulkan promises, those of scenes from float32 and noise. A\n"
+    "correct device fails about once in a million runs. Paste the output into a report of a fault.\n";
 
 } // namespace
 
@@ -140,9 +140,9 @@ void add_selftest_command(CLI::App &program, Run &chosen) {
                     &run_selftest);
     add_device(command, options.device);
     add_text(command, "--json", options.json, "JSON",
-             "Write the same as JSON; - is standard output, the text then goes to stderr");
+             "Write the report as JSON; - is standard output, the text then goes to stderr");
     command.add_flag("--directions", options.directions,
-                     "Check the directions that kernels sample and the weights of lamps alone");
+                     "Check only the directions that kernels sample, and the weights of lamps");
     add_shader_dir(command, options.shader_dir);
 }
 

@@ -25,7 +25,7 @@ struct TonemapOptions {
 void check(const TonemapOptions &options) {
     check_image_names({&options.output, 1}, options.format);
     refuse_if(image_target(options.output, options.format).format.is_radiance,
-              options.output + ": a tone-mapped image is one of " + extensions(is_for_displays));
+              options.output + ": the name must end in one of " + extensions(is_for_displays));
     require_distinct_files({{"the image", options.input}}, {{"the output", options.output}});
 }
 
@@ -67,7 +67,7 @@ std::vector<float> alpha_of(const DecodedImage &image, const ImageFormat &format
          i += image.channels.size()) {
         const float share = image.values[i];
         if (!(share >= 0.0F && share <= 1.0F)) // also refuses NaN
-            refuse(image, alpha.size(), ": A is " + std::to_string(share) + ", not in [0, 1]");
+            refuse(image, alpha.size(), ": A = " + std::to_string(share) + ": must be from 0 to 1");
         alpha.push_back(share);
     }
     return alpha;
@@ -108,16 +108,15 @@ int run_tonemap(const TonemapOptions &options) {
 }
 
 constexpr const char *tonemap_help =
-    "IN is an OpenEXR file, of `pt render` or another program, with the channels R, G and B; of one that\n"
-    "was rendered, OUT has the pixels that `pt render` would have written with the same options. Negative\n"
-    "numbers count as 0; one that is not finite is an error. --exposure auto is explained in `pt render\n"
-    "--help`.\n";
+    "IN is an OpenEXR file of `pt render` or another program, with the channels R, G and B. If `pt render`\n"
+    "wrote IN, OUT has the pixels that it would have written with the same options. Negative numbers count\n"
+    "as 0; numbers that are not finite are errors. `pt render --help` explains --exposure auto.\n";
 
 } // namespace
 
 void add_tonemap_command(CLI::App &program, Run &chosen) {
     const auto [command, options] =
-        add_command(program, chosen, "tonemap", "Make a picture of a file of radiance, without rendering", tonemap_help,
+        add_command(program, chosen, "tonemap", "Convert linear radiance to a picture, without rendering", tonemap_help,
                     &run_tonemap);
     add_text(command, "IN", options.input, "IN", "Linear radiance (.exr)")->required();
     add_text(command, "OUT", options.output, "OUT",

@@ -62,8 +62,9 @@ template <typename Call>
 pt_result guard_context(pt_context *context, Call &&call) noexcept {
     return guard_any_time(context, [&](Renderer &renderer) {
         if (renderer.is_under_way())
-            throw Error(PT_ERROR_INVALID_STATE,
-                        "samples are under way: call pt_poll until it does not return PT_PENDING, or first pt_cancel");
+            throw Error(
+                PT_ERROR_INVALID_STATE,
+                "samples are under way: call pt_poll until it does not return PT_PENDING, or call pt_cancel first");
         return call(renderer);
     });
 }
@@ -79,22 +80,22 @@ pt_accumulate_info validated_accumulate(const pt_accumulate_info *info, bool may
     subject.require(accumulate.sampling <= PT_SAMPLING_ADAPTIVE, "sampling", accumulate.sampling,
                     "must be a PT_SAMPLING_* of pt.h");
     subject.require(accumulate.sampling != PT_SAMPLING_ADAPTIVE || accumulate.target_error > 0.0, "sampling",
-                    accumulate.sampling, "needs a target_error > 0, which ends it");
+                    accumulate.sampling, "must not be PT_SAMPLING_ADAPTIVE without a target_error");
     subject.require(accumulate.sample_limit == 0 || accumulate.target_error > 0.0, "sample_limit",
                     accumulate.sample_limit, "must be 0 without a target_error");
     subject.require(accumulate.reserved2 == 0, "reserved2", accumulate.reserved2, "must be 0");
     subject.require((accumulate.tile_samples == nullptr) == (accumulate.tile_count == 0), "tile_count",
-                    accumulate.tile_count, "must be 0 where tile_samples is NULL, and only there");
+                    accumulate.tile_count, "must be 0 if and only if tile_samples is NULL");
     subject.require(!accumulate.tile_samples || accumulate.target_error == 0.0, "target_error", accumulate.target_error,
-                    "must be 0 beside tile_samples");
+                    "must be 0 with tile_samples");
     for (std::uint32_t tile = 0; accumulate.tile_samples && tile < accumulate.tile_count; ++tile)
         if (accumulate.tile_samples[tile] > accumulate.sample_count) {
             subject.refuse("tile_samples", std::to_string(accumulate.tile_samples[tile]),
-                           "must be at most sample_count, in tile " + std::to_string(tile) + " too");
+                           "must be at most sample_count (tile " + std::to_string(tile) + ")");
             break;
         }
     if (accumulate.progress && !may_call_back)
-        subject.refuse("progress", "a function", "must be NULL for pt_start: pt_poll says how far the samples are");
+        subject.refuse("progress", "a function", "must be NULL for pt_start; pt_poll reports the progress");
     violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
     return accumulate;
 }
@@ -106,7 +107,7 @@ void refuse_to_destroy(pt_context &context, const char *reason) noexcept {
     refusal = {&context, reason};
     if (!told)
         guard(thread_last_error, [&] {
-            context.renderer.log().write(PT_LOG_ERROR, std::string("pt_destroy: ") + reason + ", which stays");
+            context.renderer.log().write(PT_LOG_ERROR, std::string("pt_destroy: ") + reason + "; it was not destroyed");
         });
 }
 

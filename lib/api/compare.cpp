@@ -19,7 +19,7 @@ void check_image(const Subject &subject, const pt_compared_image &image, std::ui
                     "must not be PT_SAMPLER_HALTON, whose errors are not random");
     subject.require(image.min_samples == image.max_samples, "max_samples", image.max_samples,
                     "must be min_samples, " + std::to_string(image.min_samples) +
-                        ": samples that go where the error is shift the mean");
+                        ": adaptive sampling shifts the mean");
     check_values(subject, "radiance", image.radiance, 3 * pixel_count, &finite_rule);
 }
 

@@ -63,7 +63,7 @@ private:
         if (function)
             return;
         const std::string rule = std::string("Open Image Denoise 2 cannot be loaded: ") + platform::module_error() +
-                                 "; pip install pyoidn brings it, as pyoidn/oidn/lib/" + platform::denoiser_file;
+                                 "; pip install pyoidn installs it as pyoidn/oidn/lib/" + platform::denoiser_file;
         throw Error(PT_ERROR_UNSUPPORTED,
                     BrokenRule{.subject = "denoise", .member = "library", .value = '"' + path_ + '"', .rule = rule});
     }

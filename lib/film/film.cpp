@@ -261,7 +261,8 @@ std::span<const TileErrors> Film::look_at(const TileSamples &samples, FilmErrors
 TileSamples Film::samples_by_tile() const {
     std::optional<TileSamples> samples = tile_samples(header_.tiles, bounds_);
     if (!samples)
-        throw Error(PT_ERROR_INCOMPATIBLE, "film: its tiles cut squares of 8 pixels from its top left on");
+        throw Error(PT_ERROR_INCOMPATIBLE,
+                    "film: its tiles must consist of whole squares of 8x8 pixels, counted from its top left");
     return std::move(*samples);
 }
 

@@ -115,8 +115,8 @@ FilmReader::FilmReader(std::span<const std::byte> bytes) :
     layout_(header_) {
     if (bytes.size() != layout_.size_bytes())
         throw Error(PT_ERROR_INCOMPATIBLE,
-                    "film: it has " + std::to_string(bytes.size()) + " bytes, and its header asks for " +
-                        std::to_string(layout_.size_bytes()) + ": truncated, or followed by more");
+                    "film: it has " + std::to_string(bytes.size()) + " bytes, but its header describes " +
+                        std::to_string(layout_.size_bytes()) + ": it is truncated, or other bytes follow");
     if (stored_checksum(bytes) != checksum(bytes.first(bytes.size() - checksum_bytes)))
         throw Error(PT_ERROR_INCOMPATIBLE, "film: its checksum does not match its bytes, which are damaged");
 }
@@ -132,7 +132,7 @@ void FilmReader::read(std::size_t tile, std::uint64_t first_pixel, PixelSums &su
         std::memcpy(words.data(), bytes_.subspan(offset, words.size()).data(), words.size());
     }
     if (!sums.holds(layout_.counts(tile)))
-        throw Error(PT_ERROR_INCOMPATIBLE, "film: sums that its samples cannot have");
+        throw Error(PT_ERROR_INCOMPATIBLE, "film: its sums cannot come from its samples");
 }
 
 } // namespace pt

@@ -39,7 +39,7 @@ std::string_view take_line(std::string_view &text) {
         refuse("its header has no end");
     const std::string_view line = text.substr(0, end);
     if (!std::ranges::all_of(line, [](char letter) { return letter >= ' ' && letter <= '~'; }))
-        refuse("its header has bytes that are no printable ASCII");
+        refuse("its header has bytes that are not printable ASCII");
     text.remove_prefix(end + 1);
     return line;
 }
@@ -83,7 +83,7 @@ void read_samples(std::string_view value, FilmHeader &header) {
     const bool follows = samples.empty() || samples.hull().end < range.first;
     if (range.first >= range.end || range.end > sample_index_end || !follows)
         refuse("samples = " + std::string(value) +
-               ": must be a range of indices below 2^32 that begins beyond the end of the one before");
+               ": must be a range of indices below 2^32 that begins after the end of the previous one");
     samples.add(range);
 }
 
@@ -160,7 +160,7 @@ std::string text_of(const FilmHeader &header) {
 FilmHeader parsed_film_header(std::string_view text) {
     std::string_view rest = text;
     if (!text.starts_with(first_line_start))
-        refuse("these bytes are no film");
+        refuse("these bytes are not a film");
     const std::string_view first = take_line(rest);
     if (first.substr(first_line_start.size()) != version)
         refuse("its version is not " + std::string(version) + ", which this library reads");
@@ -184,11 +184,11 @@ FilmHeader parsed_film_header(std::string_view text) {
         else if (header.identity.size() < max_facts)
             header.identity.push_back({std::string(name), std::string(value)});
         else
-            refuse("its header has more than " + std::to_string(max_facts) + " lines of other names");
+            refuse("its header has more than " + std::to_string(max_facts) + " lines with other names");
     }
     require_counts(header.tiles);
     if (header.lamps != united(header.lamps) || text_of(header) != text)
-        refuse("its header is not written as the format asks");
+        refuse("its header is not in the prescribed form");
     return header;
 }
 

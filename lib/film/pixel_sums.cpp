@@ -143,7 +143,7 @@ PartCounts PixelSums::samples_of(std::size_t pixel) const {
 void require_samples(const PartCounts &done, const PartCounts &expected) {
     for (std::uint32_t part = 0; part < gpu::FILM_PARTS; ++part)
         if (done[part] != expected[part])
-            throw Error(PT_ERROR_INTERNAL, "the driver did " + std::to_string(done[part]) + " of " +
+            throw Error(PT_ERROR_INTERNAL, "the driver took " + std::to_string(done[part]) + " of " +
                                                std::to_string(expected[part]) +
                                                " samples of a pixel in one part of the film");
 }

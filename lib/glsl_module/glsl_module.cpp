@@ -50,7 +50,7 @@ public:
 
     IncludeResult *includeLocal(const char *name, const char *including_file, std::size_t /*depth*/) override {
         if (is_endless_)
-            return refuse("not read after that");
+            return refuse("not read, because a file includes itself");
         const fs::path path = find(name, including_file).lexically_normal();
         is_endless_ = std::ranges::count(open_files_, path) >= most_open_times;
         if (is_endless_)
@@ -68,8 +68,8 @@ public:
     // file; its text is the reason.
     IncludeResult *includeSystem(const char * /*name*/, const char * /*file*/, std::size_t /*depth*/) override {
         const std::string reason = std::exchange(reason_, "");
-        return hand_over("",
-                         std::make_unique<std::string>(reason.empty() ? "only #include \"name\" is known" : reason));
+        return hand_over(
+            "", std::make_unique<std::string>(reason.empty() ? "only #include \"name\" is supported" : reason));
     }
 
     void releaseInclude(IncludeResult *result) override {

@@ -73,7 +73,7 @@ double rays_for(double tests, const View &view) {
 void require_all_met(std::uint32_t lost_pixels) {
     if (lost_pixels > 0)
         throw Error(PT_ERROR_INTERNAL, "the driver stopped camera rays of " + std::to_string(lost_pixels) +
-                                           " pixels before they had met anything");
+                                           " pixels before they hit anything");
 }
 
 } // namespace pt

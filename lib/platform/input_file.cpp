@@ -17,7 +17,7 @@ constexpr std::size_t block = std::size_t{1} << 16;
 // Refuses a path with a NUL byte, where the system would end the name.
 int opened(const std::filesystem::path &path) {
     if (path.native().find(std::filesystem::path::value_type{}) != std::filesystem::path::string_type::npos)
-        throw InputError("a file's name has no NUL byte");
+        throw InputError("the name of a file must not have a NUL byte");
     return open_to_read(path);
 }
 

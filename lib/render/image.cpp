@@ -42,8 +42,8 @@ void check_quantity(const Subject &image, std::uint32_t quantity, std::uint32_t 
     image.require(format < format_count, "format", format, "must be a PT_FORMAT_* of pt.h");
     image.require(format >= format_count || (format == PT_FORMAT_R32UI) == (quantity == PT_QUANTITY_OBJECT), "format",
                   format,
-                  quantity == PT_QUANTITY_OBJECT ? "must be PT_FORMAT_R32UI, as the quantity is PT_QUANTITY_OBJECT"
-                                                 : "PT_FORMAT_R32UI is for PT_QUANTITY_OBJECT alone");
+                  quantity == PT_QUANTITY_OBJECT ? "must be PT_FORMAT_R32UI, because the quantity is PT_QUANTITY_OBJECT"
+                                                 : "must not be PT_FORMAT_R32UI, which is only for PT_QUANTITY_OBJECT");
 }
 
 // `alignment` of rows and `offset` of the image in its memory are in bytes.

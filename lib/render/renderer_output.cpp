@@ -158,7 +158,8 @@ std::span<std::byte> Renderer::map(const ImageLayout &layout) {
 void Renderer::readback(const BufferImage &image) {
     require_alive();
     if (!is_on_lent_device())
-        throw Error(PT_ERROR_INVALID_STATE, "the context has a device of its own: pt_create_info.vulkan lends it one");
+        throw Error(PT_ERROR_INVALID_STATE,
+                    "the context does not use your Vulkan device: lend it one by pt_create_info.vulkan");
     require_settings();
     require_samples_of(image.layout.quantity);
     const KernelsKept kept(devices_);

@@ -27,7 +27,7 @@ RenderSettings validated_render(const pt_render &source) {
     render.require(source.estimator <= gpu::LAST_ESTIMATOR, "estimator", source.estimator,
                    "must be a PT_ESTIMATOR_* of pt.h");
     render.require(source.sampler <= gpu::LAST_SAMPLER, "sampler", source.sampler, "must be a PT_SAMPLER_* of pt.h");
-    render.require((source.flags & ~all_flags) == 0, "flags", source.flags, "must have bits PT_RENDER_* of pt.h alone");
+    render.require((source.flags & ~all_flags) == 0, "flags", source.flags, "must have only bits PT_RENDER_* of pt.h");
     render.require(source.first_row < std::max(source.height, 1U), "first_row", source.first_row, "must be < height");
     const std::uint64_t rows_end = std::uint64_t{source.first_row} + source.row_count;
     render.require(rows_end <= source.height, {"first_row", "+ row_count"}, rows_end, "must be <= height");

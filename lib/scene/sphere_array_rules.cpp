@@ -38,14 +38,14 @@ bool is_coordinate(double value) {
 }
 
 // Lamps are sampled by the cone around a ball, so capsules must not emit.
-const char *const dark_rule = "must be of a material without emission: capsules are no lamps";
+const char *const dark_rule = "must be a material without emission, because capsules cannot be lamps";
 
 bool is_dark(const pt_material &material) {
     return std::ranges::all_of(material.emission, [](float component) { return component == 0.0F; });
 }
 
 // Shadow rays do not test their lamp's opacity. Camera rays do not test whether a tree sphere is hidden.
-const char *const plain_rule = "must be of a material that neither emits nor is hidden, as its opacity is below 1";
+const char *const plain_rule = "must be a material that neither emits nor is hidden, because the opacity is below 1";
 
 bool is_plain(const pt_material &material) {
     return is_dark(material) && (material.flags & PT_MATERIAL_HIDDEN_FROM_CAMERA) == 0;
@@ -205,7 +205,7 @@ bool check_layout(const Subject &subject, const pt_sphere_array &array) {
     for (const ColumnKind &kind : kinds)
         readable &= check_layout(subject, array.*kind.column, array.count, kind);
     if (is_there(array.end) && is_there(array.motion)) {
-        subject.refuse("motion.data", "set", "must be NULL where end.data is set: capsules do not move");
+        subject.refuse("motion.data", "set", "must be NULL with end.data, because capsules do not move");
         return false;
     }
     return readable;
@@ -234,7 +234,7 @@ std::vector<pt_sphere_array> copied_sphere_arrays(const pt_scene &scene, Violati
         if (size != distance)
             throw Error(PT_ERROR_INVALID_ARGUMENT,
                         wrong_size("sphere_arrays", i, size,
-                                   "must be that of sphere_arrays[0] (" + number_text(distance) + ")"));
+                                   "must be equal to that of sphere_arrays[0] (" + number_text(distance) + ")"));
         arrays.push_back(copy_in(array, "sphere_arrays", i));
     }
     return arrays;

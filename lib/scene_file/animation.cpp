@@ -71,8 +71,9 @@ AnimatedValue read_animated_value(const JsonPlace &place, const json &value) {
     const std::string name(place.key);
     const auto parsed = parse_path(name);
     if (!parsed || !parsed->rest.empty() || !can_move(parsed->path)) {
-        refuse(place, "the name must be that of a key of the camera, of a material or of a surface, like "
-                      "camera.position or spheres[0].center; the shutter has no frames");
+        refuse(place,
+               "the name must be a key of the camera (except its shutter), of a material or of a surface, such as "
+               "camera.position or spheres[0].center");
     }
     if (!value.is_array() || value.empty())
         refuse(place, "must be an array of key frames, [frame, value] each");
@@ -85,9 +86,9 @@ AnimatedValue read_animated_value(const JsonPlace &place, const json &value) {
             continue;
         const KeyFrame &before = animated.keys[i - 1];
         if (animated.is_array != was_array || animated.keys[i].numbers.size() != before.numbers.size())
-            refuse(element.element(1), "must have as many numbers as the one before");
+            refuse(element.element(1), "must have as many numbers as the previous key frame");
         if (animated.keys[i].frame <= before.frame)
-            refuse(element.element(0), "must be a later frame than the one before");
+            refuse(element.element(0), "must be later than the previous key frame");
     }
     return animated;
 }
@@ -114,7 +115,7 @@ std::vector<SceneOverride> overrides_of_frame(const SceneFile &scene, std::uint3
 
 SceneFile scene_in_frame(const SceneFile &scene, std::uint32_t frame) {
     if (scene.animation.empty())
-        throw Error(PT_ERROR_INVALID_SCENE, scene.path + ": has no animation, and so no frames");
+        throw Error(PT_ERROR_INVALID_SCENE, scene.path + ": has no animation, and therefore no frames");
     std::vector<SceneOverride> overrides = overrides_of_frame(scene, frame);
     overrides.insert(overrides.end(), scene.overrides.begin(), scene.overrides.end());
     SceneFile in_frame = scene_of_text(scene.text, scene.path, std::move(overrides));

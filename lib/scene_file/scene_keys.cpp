@@ -227,15 +227,13 @@ constexpr std::array plane_keys{
 };
 
 constexpr std::array<SceneSection, 7> sections{{
-    {"camera", SectionForm::members,
-     "A pinhole, a thin lens, or parallel rays, under which a thing is as large in the picture wherever it is",
-     camera_keys},
+    {"camera", SectionForm::members, "A pinhole, a thin lens, or parallel rays", camera_keys},
     {"film", SectionForm::members, "The picture", film_keys},
-    {"render", SectionForm::members, "How it is made", render_keys},
-    {"materials", SectionForm::objects, "By their names", material_keys},
-    {"spheres", SectionForm::array, "Hollow: they are seen, lit and shine inside as outside", sphere_keys},
-    {"capsules", SectionForm::array, "Balls swept along a segment; they do not emit", capsule_keys},
-    {"planes", SectionForm::array, "Where dot(normal, x) + offset = 0", plane_keys},
+    {"render", SectionForm::members, "The sampling", render_keys},
+    {"materials", SectionForm::objects, "Materials by name", material_keys},
+    {"spheres", SectionForm::array, "Spheres, of which both sides are visible, reflect and emit", sphere_keys},
+    {"capsules", SectionForm::array, "Spheres swept along a segment; they neither emit nor move", capsule_keys},
+    {"planes", SectionForm::array, "Planes of the points x with dot(normal, x) + offset = 0", plane_keys},
 }};
 
 template <typename Named>

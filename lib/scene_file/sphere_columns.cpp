@@ -48,7 +48,7 @@ public:
         constexpr std::size_t longest = 65535; // longest header of version 1
         const std::string start(file.first(version_place + 2 + sizeof(std::uint32_t)));
         if (!start.starts_with(magic) || start.size() < version_place + 2)
-            refuse("is no NPY file, which begins with \\x93NUMPY: write it by numpy.save");
+            refuse("is not an NPY file, which begins with \\x93NUMPY: write it by numpy.save");
         const int version = static_cast<unsigned char>(start[version_place]);
         if (version != 1 && version != 2)
             refuse("has NPY version " + std::to_string(version) + ", must be 1 or 2, of arrays without named fields");
@@ -153,10 +153,10 @@ void check_fit(const SceneKey &key, const NpyArray &array, const NpyArray &cente
                           array.row_length == 0 ? "" : concat(" ", array.row_length), "), must be ",
                           is_single ? "(N,)" : "(N, 3)"));
     refuse_to_have(array.type == PT_TYPE_SRGB8 && !may_be_bytes(key),
-                   "numbers of the type |u1, which colors alone may have; must be <f4 or <f8");
+                   "numbers of the type |u1, which only colors may have; must be <f4 or <f8");
     refuse_to_have(array.row_count > std::numeric_limits<std::uint32_t>::max(), "more than 4294967295 rows");
     refuse_to_have(array.row_count != centers.row_count,
-                   concat(array.row_count, " rows, and the centers ", centers.row_count));
+                   concat(array.row_count, " rows, but the centers have ", centers.row_count));
 }
 
 } // namespace

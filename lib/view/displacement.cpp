@@ -145,18 +145,18 @@ std::optional<BrokenRule> displaced_surface(const PreparedScene &scene, const Ca
     if (losses.of_capsule >= std::max(losses.of_center, losses.of_radius))
         return rule_about(place, "end", short_text(surface.close() + camera.position),
                           "the capsule is " + short_text(glm::length(surface.way)) +
-                              " long and held to 2^-21 of that, which moves it" + shift +
+                              " long and stored to 2^-21 of its length, which moves it" + shift +
                               "divide it into shorter ones, or see it from farther away");
     if (losses.of_radius >= losses.of_center)
         return rule_about(place, "radius", short_text(surface.radius),
-                          "where there are opacities, radii are held to 2^-16 of themselves, which moves the surface" +
+                          "in scenes with opacities radii are stored to 2^-16 of themselves, which moves the surface" +
                               shift + "make it smaller, or all spheres opaque");
     const SphereTree::Farthest farthest = scene.tree->farthest();
     const bool is_huge = farthest.surface.radius > 0.5 * farthest.distance;
     return rule_about(place_of_index(scene.scene, farthest.sphere), is_huge ? "radius" : "center",
                       is_huge ? short_text(farthest.surface.radius)
                               : short_text(without_less_than(losses.of_center, farthest.surface.open)),
-                      "it reaches so far that centers are held to " + short_text(losses.of_center) +
+                      "it reaches so far that centers are stored to " + short_text(losses.of_center) +
                           ", which moves some in view" + shift + "bring it nearer, make it smaller" +
                           (scene.tree->has_opacities() ? " or opaque" : ", or render it in a scene of its own"));
 }

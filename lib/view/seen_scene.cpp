@@ -81,18 +81,17 @@ void require_held_motions(const SeenScene &seen, const Scene &scene, const Camer
         return;
     const Sphere &sphere = scene.spheres[held->index];
     const SpherePlace place = place_of_sphere(scene, held->index);
-    throw Error(PT_ERROR_UNSUPPORTED,
-                BrokenRule{.subject = place.subject,
-                           .index = place.index,
-                           .member = "motion",
-                           .component = place.component,
-                           .value = number_text(sphere.motion),
-                           .rule = "a sphere whose surface, as the shutter opens, is nearer to " +
-                                   std::string(camera.is_orthographic()
-                                                   ? "where parallel rays start, in a view whose half diagonal is less,"
-                                                   : "the camera") +
-                                   " than a 65536th of its radius (" + number_text(sphere.radius) +
-                                   ") must move less than a 32nd of it while the shutter is open"});
+    throw Error(
+        PT_ERROR_UNSUPPORTED,
+        BrokenRule{.subject = place.subject,
+                   .index = place.index,
+                   .member = "motion",
+                   .component = place.component,
+                   .value = number_text(sphere.motion),
+                   .rule = "must be less than a 32nd of the radius (" + number_text(sphere.radius) +
+                           ") while the shutter is open, because the surface is nearer than a 65536th of it to " +
+                           (camera.is_orthographic() ? "the start of parallel rays, in a view of smaller size"
+                                                     : "the camera")});
 }
 
 bool divides_start(const CurvedPlane &flat, const Camera &camera) {

@@ -22,7 +22,7 @@ constexpr uint32_t polled_width = 120;
 constexpr uint32_t polled_height = 45;
 constexpr uint64_t to_the_end = UINT64_MAX;
 const std::string under_way =
-    "samples are under way: call pt_poll until it does not return PT_PENDING, or first pt_cancel";
+    "samples are under way: call pt_poll until it does not return PT_PENDING, or call pt_cancel first";
 const std::string not_under_way = "no samples are under way: call pt_start first";
 
 using Pixels = std::vector<float>;
@@ -208,7 +208,7 @@ TEST_F(PollingTest, WhatIsStartedFollowsTheRules) {
     pt_accumulate_info info = samples(1);
     info.progress = [](void *, double) -> int32_t { return 0; };
     expect_failure(pt_start(context(), &info), PT_ERROR_INVALID_ARGUMENT,
-                   "accumulate.progress = a function: must be NULL for pt_start: pt_poll says how far the samples are");
+                   "accumulate.progress = a function: must be NULL for pt_start; pt_poll reports the progress");
     pt_broken_rule rule{};
     rule.struct_size = sizeof rule;
     ASSERT_EQ(pt_get_broken_rule(context(), 0, &rule), 1U);

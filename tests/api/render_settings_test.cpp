@@ -34,7 +34,7 @@ TEST(RenderSettings, BrokenRulesAreNamed) {
                                  "render.max_path_length = 1025: must be <= 1024\n"
                                  "render.estimator = 6: must be a PT_ESTIMATOR_* of pt.h\n"
                                  "render.sampler = 5: must be a PT_SAMPLER_* of pt.h\n"
-                                 "render.flags = 2: must have bits PT_RENDER_* of pt.h alone"},
+                                 "render.flags = 2: must have only bits PT_RENDER_* of pt.h"},
                                 {[](pt_render &r) { r.width = r.height = 65536; },
                                  "render.width * height = 4294967296: must be <= 4294967295"},
                                 {[](pt_render &r) { r.width = r.height = 4294967295U; },

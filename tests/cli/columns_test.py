@@ -31,7 +31,7 @@ class Refusals(ColumnsTest):
     def test_files_that_do_not_fit(self):
         good = npy("<f4", (3,), RADII)
         for data, error in (
-                (b"", "is no NPY file"), (b"PK\3\4" + good, "is no NPY file"), (good[:5], "is no NPY file"),
+                (b"", "is not an NPY file"), (b"PK\3\4" + good, "is not an NPY file"), (good[:5], "is not an NPY file"),
                 (good[:9], "ends within its header"), (good[:40], "ends within its header"),
                 (good[:-1], "ends after 2 of 3 rows"), (good + b"\0", "goes on after its 3 rows"),
                 (good[:6] + b"\3" + good[7:], "has NPY version 3, must be 1 or 2"),
@@ -44,9 +44,9 @@ class Refusals(ColumnsTest):
                 (good.replace(b"'shape'", b"'shade'"), "its header has no shape"),
                 (npy("<f4", (3, 1, 1), RADII), "has 3 dimensions"),
                 (npy("<f4", (3, 1), RADII), "has the shape (3, 1), must be (N,)"),
-                (npy("<f4", (2,), RADII[:2]), "has 2 rows, and the centers 3"),
+                (npy("<f4", (2,), RADII[:2]), "has 2 rows, but the centers have 3"),
                 (npy("<f4", (2**62, 2), RADII), "ends after 1 of 4611686018427387904 rows"),
-                (npy("|u1", (3,), [1, 2, 3]), "has numbers of the type |u1, which colors alone may have")):
+                (npy("|u1", (3,), [1, 2, 3]), "has numbers of the type |u1, which only colors may have")):
             with self.subTest(error=error):
                 self.refuse(data, error)
         self.refuse(npy("<f4", (3,), RADII), "has the shape (3,), must be (N, 3)", "color")
@@ -141,7 +141,7 @@ class RealDevice(ColumnsTest):
         self.scene(columns)
         self.assertNotEqual(self.picture(), expected)
         self.scene({**columns, "opacity": 0.5, "material": "sky"})
-        self.expect(3, "render", "s.json", "-o", "a.png", error='spheres[1].material = "sky": must be of a material that neither')
+        self.expect(3, "render", "s.json", "-o", "a.png", error='spheres[1].material = "sky": must be a material that neither')
         self.scene({**columns, "opacity": 1.5})
         self.expect(3, "render", "s.json", "-o", "a.png", error="spheres[1].opacity[0] = 1.5: must lie in [0, 1]")
 

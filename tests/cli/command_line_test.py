@@ -37,7 +37,7 @@ class Usage(CommandLineTest):
                                  (["selftest", "--devcie", "0"], 'mean "--device"? (see pt selftest --help)'),
                                  (["render", "a.json", "-o"], "pt: --output: its IMAGE is missing (see"),
                                  ([*render, "--spp", "4", "--spp", "5"], "pt: --spp: is given 2 times, must be given once (see"),
-                                 (["--quiet", *render], "pt: --quiet: stands before the command; its options stand"),
+                                 (["--quiet", *render], "pt: --quiet: must come after the command"),
                                  ([*render, "-Z"], 'unknown option "-Z" (see'),
                                  (["render", "b.json", *render[1:]], 'unexpected argument "')):
             with self.subTest(arguments=arguments):
@@ -248,4 +248,4 @@ class Warnings(CommandLineTest):
         self.assertEqual(self.warnings(scene=COURSEWORK), [])
         self.assertEqual(self.warnings("--error", "2", "--spp", "16", scene=COURSEWORK, FAKE_PT_FAIL="rejected:-1"),
                          ["--error: the target is 200%; two percent are written 2% or 0.02",
-                          "3 samples (0.586%) left out: not finite, negative or too bright"])
+                          "3 samples (0.586%) were left out: not finite, negative or too bright"])

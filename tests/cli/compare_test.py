@@ -83,7 +83,7 @@ class Compare(CommandLineTest):
         self.expect_refusals("compare", (
                 (2, ("a.png", "b.png"), "a.png is 5x3 at 0,0 of 5x3, b.png is 3x5 at 0,0 of 3x5: they must be equally"),
                 (2, ("c.exr", "d.exr"), "must be equally large"),
-                (2, ("a.exr", "a.png"), "a.exr holds radiance, a.png numbers for a display: they must be of one kind"),
+                (2, ("a.exr", "a.png"), "a.exr holds radiance, a.png holds numbers for displays: both must hold the same"),
                 (6, ("a.png", "none.png"), "cannot read none.png"),
                 (6, ("a.exr", "r.exr", "--layer", "albedo"), "R, G and B of the layer albedo, or a channel"),
                 (2, ("a.png", "r.png", "--json", "r.png"), "is the same file as the reference r.png"),
@@ -99,7 +99,7 @@ class RealDevice(CommandLineTest):
         self.expect(0, "render", COURSEWORK, *SIZE, "-o", "e.exr", "--layers", "standard-error")
         compare = ("compare", "e.exr", "e.exr", "--layer", "standard_error")
         self.expect(0, *compare)
-        self.assertIn("\nnot finite    15 pixels, left out above\n", self.output)
+        self.assertIn("\nnot finite    15 pixels, not counted above\n", self.output)
         for option in "--max-mse", "--max-difference":
             self.expect(8, *compare, option, "1e18", error="pt: 15 pixels are not finite")
 

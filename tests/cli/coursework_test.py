@@ -89,7 +89,7 @@ class Coursework(CommandLineTest):
         names = os.listdir(self.path("kernels"))
         self.assertEqual([name for name in names if name.endswith(".diff")] + [name for name in ("phong.glsl", "lights.glsl")
                                                                               if name in names], [])
-        self.expect(6, "course", "kernels", error="kernels: is not empty")
+        self.expect(6, "course", "kernels", error="kernels: must be empty")
         self.expect(2, "course", "--check", "8", "--shader-dir", "kernels", error="--check 8: the steps are 1, 2, 3, ")
         code, lines, _ = self.verdict("next")
         self.assertEqual(code, 8)

@@ -145,5 +145,5 @@ class RealDeviceDenoise(DenoiseTest):
         for name in "none.so", os.devnull:
             self.render("-o", "a.png", f"--denoise={name}", "--device", "none", code=6,
                         error=f'--denoise = "{name}": Open Image Denoise 2 cannot be loaded')
-            self.assertIn("; pip install pyoidn brings it", self.errors)
+            self.assertIn("; pip install pyoidn installs it", self.errors)
         self.assertEqual(self.files(), [])

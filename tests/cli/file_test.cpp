@@ -92,8 +92,8 @@ TEST(AtomicFile, FollowsNoOneElsesLinksWhereEverybodyMayWrite) {
             EXPECT_EQ(refusal, c.is_followed
                                    ? ""
                                    : "cannot write " + folder.file(path) + ": the link " + folder.file("open/link") +
-                                         " is another user's, in a folder where everybody may write; only your "
-                                         "own links and those of the folder's owner are followed there")
+                                         " belongs to another user, and everybody may write in its folder; use a "
+                                         "link of your own or of the folder's owner")
                 << path << ' ' << std::oct << c.folder << ' ' << std::dec << c.folder_owner << ' ' << c.link_owner;
         }
         EXPECT_EQ(folder.read("of root/target"), "old");

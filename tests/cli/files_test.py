@@ -105,7 +105,7 @@ class SameFiles(CommandLineTest):
                         "a.png", "--stats", "hard.json", *watch)
             self.refuse("--stats shaders/pathtrace.comp: is the same file as the shader shaders/pathtrace.comp",
                         *arguments, "a.png", "--stats", "shaders/pathtrace.comp", *watch)
-            self.refuse("-o ./shaders/a.png: is in the folder of --shader-dir shaders, whose files are read",
+            self.refuse("-o ./shaders/a.png: must not be in the folder shaders of --shader-dir, whose files are inputs",
                         *arguments, "./shaders/a.png", *watch)
         self.expect(0, "render", *arguments, "shaders/folder/a.png")
 
@@ -129,7 +129,7 @@ class SameFiles(CommandLineTest):
 @unittest.skipUnless(os.geteuid() == 0, "needs root, for a second user")
 class LinksOfOthers(CommandLineTest):
     """Other users' links in folders like /tmp must not mislead root."""
-    RULE = "is another user's, in a folder where everybody may write; only your own links"
+    RULE = "belongs to another user, and everybody may write in its folder"
 
     def test_they_are_refused_before_anything_is_rendered(self):
         self.write("s.json", SCENE)

@@ -64,7 +64,7 @@ class Crop(ImagesTest):
     def test_it_has_to_be_a_part(self):
         for text in "0,0,10,7", "9,0,1,1", "0,7,1,1", "5,5,5,1", "0,0,0,1", "0,0,1,0", "4294967295,0,2,1":
             self.render("-o", "a.png", "--crop", text, code=2,
-                        error=f"pt: --crop {text}: must be a part of the picture, of 9x7 pixels, with at least one",
+                        error=f"pt: --crop {text}: must be a part of the picture of 9x7 pixels, with at least one pixel",
                         FAKE_PT_FAIL=f"create:{RESULT['NO_DEVICE']}")
         for text in "1,2,3", "1,2,3,4,5", "-1,0,1,1", "", "a,0,1,1", "0,0,1,4294967296", "0 0 1 1", "1,2,3,":
             self.render("-o", "a.png", "--crop", text, code=2, error="--crop: must be four whole numbers")
@@ -104,7 +104,7 @@ class StandardOutput(ImagesTest):
 
     def test_its_format_has_to_be_given(self):
         self.render("-o", "-", code=2, error="-o -: standard output needs --format, one of exr, png, jpg, jpeg")
-        self.render("-o", "a.png", "--format", "png", code=2, error="--format: is for -o - alone")
+        self.render("-o", "a.png", "--format", "png", code=2, error="--format: must be used with `-o -`")
         self.render("-o", "-", "--format", "tiff", code=2, error='unknown format "tiff"')
 
     def test_one_thing_goes_there(self):
@@ -192,7 +192,7 @@ class Tonemap(ImagesTest):
     def test_what_it_refuses(self):
         self.render("-o", "a.exr", "-o", "a.png")
         self.write("text.exr", "no image")
-        self.expect_refusals("tonemap", ((2, ("a.exr", "b.exr"), "b.exr: a tone-mapped image is one of .png, .jpg, .jpeg"),
+        self.expect_refusals("tonemap", ((2, ("a.exr", "b.exr"), "b.exr: the name must end in one of .png, .jpg, .jpeg"),
                                        (2, ("a.exr", "b.tiff"), "b.tiff: the name must end in"),
                                        (2, ("a.exr", "-"), "needs --format"),
                                        (2, ("a.exr", "-", "--format", "exr"), "known: png, jpg, jpeg"),

@@ -70,7 +70,7 @@ class Layers(LayersTest):
         for output in (("-o", "a.png"), ("-o", "a.jpg", "-o", "b.png"), ("-o", "-", "--format", "png"),
                        ("--film", "a.ptfilm")):
             self.render(*output, "--layers", "depth", code=2,
-                        error="--layers: needs -o and a name in .exr, as no other format has layers")
+                        error="--layers: needs -o and a name in .exr, because no other format has layers")
         self.assertEqual(self.files(), [])
 
 
@@ -110,8 +110,8 @@ class Alpha(LayersTest):
         self.assertEqual(self.contents("a.jpg"), self.contents("b.jpg"))
 
     def test_what_is_no_share_or_not_finite_is_refused(self):
-        for alpha, green, said in ((-0.25, 1, ": A is -0.250000, not in [0, 1]"),
-                                   (math.nan, 1, ": A is nan, not in [0, 1]"), (1, math.inf, " is not finite")):
+        for alpha, green, said in ((-0.25, 1, ": A = -0.250000: must be from 0 to 1"),
+                                   (math.nan, 1, ": A = nan: must be from 0 to 1"), (1, math.inf, " is not finite")):
             self.write("other.exr", row_exr({"A": [0.5, alpha], "B": [1, 1], "G": [1, green], "R": [1, 1]}))
             self.expect(6, "tonemap", "other.exr", "other.png", error=f"cannot read other.exr: pixel 1,0{said}")
         self.assertEqual(self.files(), ["other.exr"])

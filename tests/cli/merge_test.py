@@ -54,7 +54,7 @@ class Merge(CommandLineTest):
         lines = self.errors.splitlines()
         self.assertEqual(len(lines), 5, self.errors)
         starts = (f"pt: {self.parts[1]}: samples = [9, 18)", "pt: cut.ptfilm: damaged or cut short",
-                  "pt: stranger.ptfilm: seed = 5: must be 0", "pt: picture.json: these bytes are no film",
+                  "pt: stranger.ptfilm: seed = 5: must be 0", "pt: picture.json: these bytes are not a film",
                   "pt: nothing was written")
         for line, start in zip(lines, starts):
             self.assertTrue(line.startswith(start), line)

@@ -67,7 +67,7 @@ class OtherProgram(CommandLineTest):
                               ("tachyon", "./lib/python")):
             run = self.run_with(self.path("empty"), name, "data.xyz")
             self.assertEqual(run.returncode, 2)
-            self.assertEqual(run.stderr, f"pt: there is no pt-{name} in the PATH, which comes with the Python package: "
+            self.assertEqual(run.stderr, f"pt: there is no pt-{name} in the PATH; it comes with the Python package: "
                                          f"pip install {package}\n")
         self.assertIn('"rendr", did you mean "render"?', self.run_with(self.path("empty"), "rendr").stderr)
 

@@ -84,13 +84,13 @@ TEST(RenderReport, AnUncertainErrorIsCalledSo) {
     };
     EXPECT_EQ(text_with(PT_UNCERTAIN_RMSE), "error 0.42% (0.4% to 0.44%)");
     EXPECT_EQ(text_with(PT_UNCERTAIN_RELATIVE_RMSE),
-              "error 0.42% (0.4% to 0.44%), uncertain: a few bright pixels make most of it, take more samples");
+              "error 0.42% (0.4% to 0.44%), uncertain: a few bright pixels cause most of it, take more samples");
     EXPECT_EQ(text_with(PT_UNCERTAIN_UNSEEN),
               "error 0.42% (0.4% to 0.44%), uncertain: dark pixels beside bright ones may have light that no sample "
-              "has met, take more samples");
-    EXPECT_EQ(text_with(15), "error 0.42% (0.4% to 0.44%), uncertain: few samples meet small lamps, take more");
+              "has hit, take more samples");
+    EXPECT_EQ(text_with(15), "error 0.42% (0.4% to 0.44%), uncertain: few samples hit small lamps, take more");
     set_error(report, infinity, 0.0, infinity);
-    EXPECT_EQ(cli::error_text(report), "error unknown, uncertain: few samples meet small lamps, take more");
+    EXPECT_EQ(cli::error_text(report), "error unknown, uncertain: few samples hit small lamps, take more");
     EXPECT_EQ(cli::stats_json(report).at("uncertain"),
               (std::vector<std::string>{"rmse", "relative_rmse", "unseen", "unmet"}));
 }

@@ -217,9 +217,9 @@ TEST(Animation, MistakesAreRefused) {
     EXPECT_EQ(keys("[[-1, 1]]"), place + "[0][0]: must be a whole number from 0 to 4294967295, is -1");
     EXPECT_EQ(keys("[[0, \"a\"]]"), place + "[0][1]: must be a number, is \"a\"");
     EXPECT_EQ(keys("[[0, [1, null]]]"), place + "[0][1][1]: must be a number, is null");
-    EXPECT_EQ(keys("[[0, 1], [0, 2]]"), place + "[1][0]: must be a later frame than the one before");
-    EXPECT_EQ(keys("[[0, [1, 2]], [3, [1]]]"), place + "[1][1]: must have as many numbers as the one before");
-    EXPECT_EQ(keys("[[0, [1]], [3, 1]]"), place + "[1][1]: must have as many numbers as the one before");
+    EXPECT_EQ(keys("[[0, 1], [0, 2]]"), place + "[1][0]: must be later than the previous key frame");
+    EXPECT_EQ(keys("[[0, [1, 2]], [3, [1]]]"), place + "[1][1]: must have as many numbers as the previous key frame");
+    EXPECT_EQ(keys("[[0, [1]], [3, 1]]"), place + "[1][1]: must have as many numbers as the previous key frame");
 }
 
 TEST(Animation, MistakesOfAFrameNameIt) {

@@ -78,8 +78,8 @@ class ExitCodes(CommandLineTest):
         self.expect_refusals("render", [(2, (*render, *options), error) for options, error in (
                 (("--resume",), "--resume: needs --checkpoint"),
                 (("--checkpoint-every", "5"), "--checkpoint-every: needs --checkpoint"),
-                (("--watch", "--checkpoint", "c"), "--checkpoint: a picture under --watch has none"),
-                (("--watch", "--film", "c"), "--film: a picture under --watch has none"),
+                (("--watch", "--checkpoint", "c"), "--checkpoint: cannot be used with --watch"),
+                (("--watch", "--film", "c"), "--film: cannot be used with --watch"),
                 (("--checkpoint", "-"), "--checkpoint -: "), (("--film", "-"), "--film -: "),
                 (("--checkpoint", "a.png"), "is the same file as"), (("--film", COURSEWORK), "is the same file as"),
                 (("--piece-rows", "1", "--film", "f"), "--film: needs the whole image on the device"),

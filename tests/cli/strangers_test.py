@@ -55,7 +55,7 @@ class NoFiles(CommandLineTest):
 
     def test_the_beginning_is_checked_before_the_rest_is_read(self):
         size = 2**40
-        for name, start, error in (("n.npy", b"", "is no NPY file"),
+        for name, start, error in (("n.npy", b"", "is not an NPY file"),
                                    ("n.npy", npy("<f4", (1,), []), "goes on after its 1 rows"),
                                    ("n.npy", b"\x93NUMPY\2\0" + struct.pack("<I", 2**31), "has a header of 2147483648 bytes")):
             sparse(self.path(name), start, size)
@@ -95,7 +95,7 @@ class Texts(CommandLineTest):
     def test_names_of_files(self):
         self.write("c.npy", npy("<f4", (1, 3), [0, 0, -5]))
         self.write("a", npy("<f4", (1,), [1]))
-        for name, code, shown in (("a\0b.npy", 6, "cannot read a<U+0000>b.npy: a file's name has no NUL byte\n"),
+        for name, code, shown in (("a\0b.npy", 6, "cannot read a<U+0000>b.npy: the name of a file must not have a NUL byte\n"),
                                   (self.STRANGE, 6, f"cannot read {self.SHOWN}: No such file")):
             self.write("s.json", json.dumps({"materials": {"a": {}},
                                              "spheres": [{"center": "c.npy", "radius": name, "material": "a"}]}))

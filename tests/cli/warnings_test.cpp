@@ -67,7 +67,7 @@ TEST(Warnings, ManyMaterialsAreOneWarning) {
         spheres.append(", ").append(sphere(20, 1, name));
     }
     EXPECT_EQ(warnings_of(R"("materials": {)" + materials_text + R"(}, "spheres": [)" + spheres + "]"),
-              Texts{"s.json: materials.a, materials.b, materials.c and 2 more: diffuse + specular = 1.5 at the most: "
+              Texts{"s.json: materials.a, materials.b, materials.c and 2 more: diffuse + specular = 1.5 at most: "
                     "more light is reflected than received"});
 }
 
@@ -108,15 +108,15 @@ TEST(Warnings, SamplesLeftOut) {
     EXPECT_EQ(image_warnings(report, two_pixels), Texts());
     report.stats.rejected_samples = 4;
     EXPECT_EQ(image_warnings(report, two_pixels),
-              Texts{"4 samples (25%) left out: not finite, negative or too bright"});
+              Texts{"4 samples (25%) were left out: not finite, negative or too bright"});
 }
 
 TEST(Warnings, BlackPictures) {
     cli::RenderReport report{};
     std::vector<float> radiance(6, 0.0F);
     EXPECT_EQ(image_warnings(report, radiance),
-              Texts{"no sample met light: the picture is black, and the stated error of 0 says nothing; is the camera "
-                    "inside of a ball, or every lamp behind a surface?"});
+              Texts{"no sample hit light: the picture is black, and the stated error of 0 says nothing; is the camera "
+                    "inside a ball, or every lamp behind a surface?"});
     report.warnings = {"s.json: no surface emits light: the picture is black"};
     EXPECT_EQ(image_warnings(report, radiance), Texts());
     report.warnings.clear();

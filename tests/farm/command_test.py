@@ -84,7 +84,7 @@ class Command(unittest.TestCase):
                 (["-o", "a.png", "--resume"], 2, "--resume: needs --checkpoint"),
                 (["-o", "a.png", "--tls", "a", "b", "c"], 2, "--tls: needs --scheduler"),
                 (["-o", "a.png", "--checkpoint", "scene.json"], 2, "scene.json: exists"),
-                (["-o", "a.png", "--frames", "0-1", "--checkpoint", "k"], 2, "--checkpoint: not with --frames"),
+                (["-o", "a.png", "--frames", "0-1", "--checkpoint", "k"], 2, "--checkpoint: cannot be used with --frames"),
                 (["-o", "a.png", "--spp", "0"], 2, '^pt-farm: --spp: must be .*, is 0'),
                 (["-o", "a.png", "--scheduler", "nowhere"], 4, "--scheduler nowhere: ")):
             with self.subTest(words):
@@ -163,7 +163,7 @@ class Command(unittest.TestCase):
         self.assertEqual(said, "pt-farm: --checkpoint k.ptfilm: exists; continue from it by --resume\n")
         samples = max(tile.samples[-1].stop for tile in pt.Film.load("k.ptfilm").tiles) + 3
         said = self.farm("-o", "b.exr", "--seed", "7", "--spp", str(samples), "--resume", *words[:2], code=2)
-        self.assertIn("the checkpoint is of another picture: its seed differs", said)
+        self.assertIn("the checkpoint belongs to another picture: its seed differs", said)
         self.farm("-o", "b.exr", "--spp", str(samples), "--resume", *words[:2])
         self.pt("render", "scene.json", "-o", "c.exr", "--spp", str(samples))
         self.same("b.exr", "c.exr")

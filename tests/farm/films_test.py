@@ -98,7 +98,7 @@ FAULTS = {  # Maps messages to faults.
     "its checksum does not match": changed,
     "other samples than requested": lambda name, part, film: _task.render_part(
         name, Part(part.first, part.end + 1, part.tiles), frozenset()),
-    "it is of another picture": of_another_picture,
+    "it belongs to another picture": of_another_picture,
     "seconds = nan": with_values(seconds=float("nan")),
     "seconds = -1.0": with_values(seconds=-1.0),
     "seconds = 1e[+]300": with_values(seconds=1e300),

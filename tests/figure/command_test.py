@@ -145,7 +145,7 @@ class Command(unittest.TestCase):
                 (2, "repeat = .0, 1, 1.: must be at least 1", ("water.xyz", "-o", "a.png", "--repeat", "0,1,1")),
                 (3, "repeat: points.npy has no cell", ("points.npy", "-o", "a.png", "--repeat", "2,1,1")),
                 (6, "its folder nowhere does not exist", ("water.xyz", "-o", "nowhere/a.png")),
-                (2, "named twice, or is water.xyz", ("water.xyz", "-o", "a.png", "-o", "./a.png")),
+                (2, "named twice, nor be water.xyz", ("water.xyz", "-o", "a.png", "-o", "./a.png")),
                 (2, "or is data.png", ("data.png", "-o", "./data.png")),
                 (2, "-o -: needs --format", ("water.xyz", "-o", "-")),
                 (2, "JPEG has no alpha", ("water.xyz", "-o", "a.jpg", "--background", "transparent")),

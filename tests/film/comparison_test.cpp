@@ -299,7 +299,7 @@ TEST(Comparison, WhatBreaksARuleIsRefused) {
     expect_refusal(changed([](auto &info) { info.first.radiance = nullptr; }), "first.radiance = NULL");
     expect_refusal(changed([&](auto &info) { info.second.radiance = wrong.data(); }), "second.radiance[7] = inf");
     expect_refusal(changed([](auto &info) { info.first.max_samples = 3; }),
-                   "first.max_samples = 3: must be min_samples, 0: samples that go where the error is shift the mean");
+                   "first.max_samples = 3: must be min_samples, 0: adaptive sampling shifts the mean");
     expect_refusal(changed([](auto &info) { info.second.sampler = PT_SAMPLER_HALTON; }),
                    "second.sampler = 2: must not be PT_SAMPLER_HALTON");
 }

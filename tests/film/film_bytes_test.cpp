@@ -139,28 +139,28 @@ TEST(FilmBytes, HeadersHaveOneForm) {
         const char *header;
         const char *message;
     } cases[] = {
-        {"", "film: these bytes are no film"},
+        {"", "film: these bytes are not a film"},
         {"pt film 1", "film: its header has no end"},
         {"pt film 2\n\n", "film: its version is not 1, which this library reads"},
-        {"pt film 1\nseed \t1\n\n", "film: its header has bytes that are no printable ASCII"},
-        {"pt film 1\ncoverage 1\ntile 0 0 1 1\nsamples 0 1\n\n", "film: its header is not written as the format asks"},
+        {"pt film 1\nseed \t1\n\n", "film: its header has bytes that are not printable ASCII"},
+        {"pt film 1\ncoverage 1\ntile 0 0 1 1\nsamples 0 1\n\n", "film: its header is not in the prescribed form"},
         {"pt film 1\ntile 0 0 1\n\n", "film: tile is not four numbers"},
         {"pt film 1\ntile 0 0 1 -1\n\n", "film: tile is not four numbers"},
         {"pt film 1\ntile 0 0 1 0\n\n", "film: tile = 0 0 1 0: must have from 1 to 2^32 - 1 pixels"},
         {"pt film 1\ntile 0 0 65536 65536\n\n", "film: tile = 0 0 65536 65536: must have from 1 to 2^32 - 1 pixels"},
         {"pt film 1\nsamples 0 1\n\n", "film: samples are not two numbers after a tile"},
         {"pt film 1\ntile 0 0 1 1\nsamples 1 1\n\n",
-         "film: samples = 1 1: must be a range of indices below 2^32 that begins beyond the end of the one before"},
+         "film: samples = 1 1: must be a range of indices below 2^32 that begins after the end of the previous one"},
         {"pt film 1\ntile 0 0 1 1\nsamples 0 4294967297\n\n",
          "film: samples = 0 4294967297: must be a range of indices below 2^32 that begins beyond the end of the one "
          "before"},
         {"pt film 1\ntile 0 0 1 1\nsamples 0 2\nsamples 1 3\n\n",
-         "film: samples = 1 3: must be a range of indices below 2^32 that begins beyond the end of the one before"},
+         "film: samples = 1 3: must be a range of indices below 2^32 that begins after the end of the previous one"},
         {"pt film 1\ntile 0 0 1 1\nsamples 0 4294967296\n\n", "film: samples: a pixel holds at most 2^32 - 1"},
         {"pt film 1\ntile 0 0 1 1\nsamples 2 3\nsamples 0 1\n\n",
-         "film: samples = 0 1: must be a range of indices below 2^32 that begins beyond the end of the one before"},
+         "film: samples = 0 1: must be a range of indices below 2^32 that begins after the end of the previous one"},
         {"pt film 1\ntile 0 0 1 1\nsamples 0 1\nsamples 1 2\n\n",
-         "film: samples = 1 2: must be a range of indices below 2^32 that begins beyond the end of the one before"},
+         "film: samples = 1 2: must be a range of indices below 2^32 that begins after the end of the previous one"},
         {"pt film 1\ntile 0 0 1 1\n\n", "film: a tile has no samples"},
         {"pt film 1\ntile 18446744073709551615 0 2 1\nsamples 0 1\n\n",
          "film: tile = 18446744073709551615 0 2 1: must have from 1 to 2^32 - 1 pixels"},
@@ -171,11 +171,11 @@ TEST(FilmBytes, HeadersHaveOneForm) {
         {"pt film 1\nlamps 8 8 0\ntile 0 0 1 1\nsamples 0 1\n\n",
          "film: lamps are not two multiples of 8 and a number of samples"},
         {"pt film 1\nlamps 0 8 1\nlamps 8 0 1\ntile 0 0 1 1\nsamples 0 1\n\n",
-         "film: its header is not written as the format asks"},
+         "film: its header is not in the prescribed form"},
         {"pt film 1\nlamps 8 0 1\nlamps 8 0 2\ntile 0 0 1 1\nsamples 0 1\n\n",
-         "film: its header is not written as the format asks"},
-        {"pt film 1\ntile 0 0 1 01\nsamples 0 1\n\n", "film: its header is not written as the format asks"},
-        {"pt film 1\ntile 0 0 1 1\nsamples 0 1\nseed 1\n\n", "film: its header is not written as the format asks"},
+         "film: its header is not in the prescribed form"},
+        {"pt film 1\ntile 0 0 1 01\nsamples 0 1\n\n", "film: its header is not in the prescribed form"},
+        {"pt film 1\ntile 0 0 1 1\nsamples 0 1\nseed 1\n\n", "film: its header is not in the prescribed form"},
     };
     for (const auto &[header, message] : cases) {
         const pt::Error error = error_of([&] {
@@ -189,7 +189,7 @@ TEST(FilmBytes, HeadersHaveOneForm) {
     for (const std::size_t wrong : {pixel_bytes - 1, pixel_bytes + 1}) {
         const Bytes bytes = sealed(header, wrong);
         const pt::Error error = error_of([&] { const pt::FilmReader film(bytes); });
-        EXPECT_TRUE(names(error, ": truncated, or followed by more")) << error.what();
+        EXPECT_TRUE(names(error, ": it is truncated, or other bytes follow")) << error.what();
     }
     const Bytes good = sealed(header, pixel_bytes);
     const pt::FilmReader film(good);
@@ -203,7 +203,7 @@ TEST(FilmBytes, HeadersHaveNoMoreLinesThanCanBeOfUse) {
     for (int i = 0; i < 300'000; ++i)
         facts += "a \n";
     EXPECT_EQ(error_of([&] { pt::parsed_film_header(facts + '\n'); }).what(),
-              std::string("film: its header has more than 100 lines of other names"));
+              std::string("film: its header has more than 100 lines with other names"));
 }
 
 } // namespace

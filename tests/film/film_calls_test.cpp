@@ -211,7 +211,7 @@ TEST(FilmCalls, RefuseWhatIsNotThere) {
     expect_refusal(pt_open_film(bytes.data(), bytes.size(), nullptr), PT_ERROR_INVALID_ARGUMENT,
                    "film = NULL: must not be NULL");
     opening = reinterpret_cast<pt_film *>(1);
-    expect_refusal(pt_open_film("no film", 7, &opening), PT_ERROR_INCOMPATIBLE, "film: these bytes are no film");
+    expect_refusal(pt_open_film("no film", 7, &opening), PT_ERROR_INCOMPATIBLE, "film: these bytes are not a film");
     EXPECT_EQ(opening, nullptr);
     expect_refusal(pt_merge_film(film.get(), bytes.data(), bytes.size()), PT_ERROR_INCOMPATIBLE,
                    "film.samples = [0, 3) in the 3x3 pixels from (1, 2): [0, 3) are already in the film");

@@ -138,7 +138,7 @@ TEST(Film, LostSamplesAreAnError) {
         pt::require_samples(one_pixel({9, 4, 0}, {9, 3, 0}).samples_of(0), {4, 4});
     });
     EXPECT_EQ(error.code(), PT_ERROR_INTERNAL);
-    EXPECT_STREQ(error.what(), "the driver did 3 of 4 samples of a pixel in one part of the film");
+    EXPECT_STREQ(error.what(), "the driver took 3 of 4 samples of a pixel in one part of the film");
     EXPECT_EQ(error_of([] {
                   pt::require_samples(one_pixel({9, 5, 0}, {9, 3, 0}).samples_of(0), {4, 4});
               }).code(),

@@ -237,7 +237,7 @@ TEST(Film, WhatNoPictureHasIsRefused) {
         unharmed[unharmed.size() - 100] ^= std::byte{2}; // changes a count; the checksum stays valid
         seal(unharmed);
         EXPECT_EQ(error_of([&] { const pt::Film damaged(unharmed); }).what(),
-                  std::string("film: sums that its samples cannot have"));
+                  std::string("film: its sums cannot come from its samples"));
     }
 }
 

@@ -85,12 +85,12 @@ TEST(Image, BrokenRulesAreNamed) {
           "image.quantity = 8: must be a PT_QUANTITY_* of pt.h\nimage.format = 4: must be a PT_FORMAT_* of pt.h\n"
           "image.reserved = 1: must be 0"},
          {[](pt_image &i) { i.quantity = PT_QUANTITY_OBJECT; },
-          "image.format = 0: must be PT_FORMAT_R32UI, as the quantity is PT_QUANTITY_OBJECT"},
+          "image.format = 0: must be PT_FORMAT_R32UI, because the quantity is PT_QUANTITY_OBJECT"},
          {[](pt_image &i) {
               i.quantity = PT_QUANTITY_DEPTH;
               i.format = PT_FORMAT_R32UI;
           },
-          "image.format = 3: PT_FORMAT_R32UI is for PT_QUANTITY_OBJECT alone"},
+          "image.format = 3: must not be PT_FORMAT_R32UI, which is only for PT_QUANTITY_OBJECT"},
          {[](pt_image &i) {
               i.size_bytes = 1024;
               i.row_bytes = 62;

@@ -294,7 +294,7 @@ TEST_F(ReadbackToBufferTest, NeedsALentDeviceAndSamples) {
     pt_context *created = nullptr;
     ASSERT_EQ(pt_create(&info, &created), PT_OK) << pt_last_error(nullptr);
     context_.reset(created);
-    const char *const own = "the context has a device of its own: pt_create_info.vulkan lends it one";
+    const char *const own = "the context does not use your Vulkan device: lend it one by pt_create_info.vulkan";
     refused(target(), PT_ERROR_INVALID_STATE, own);
     const CourseworkScene coursework;
     render_image(context(), coursework.scene(), CourseworkScene::camera(), render_of(2, 2, 1), 1);

@@ -249,7 +249,7 @@ TEST_F(SavedFilm, StrangersAreRefusedAndNothingChanges) {
         {with_another(good, "estimator_version"), "film.estimator_version = "},
         {truncated, "film: it has "},
         {edited(good, "\nkernel", "\ncernel"), "film: its checksum does not match its bytes, which are damaged"},
-        {Bytes{}, "film: these bytes are no film"},
+        {Bytes{}, "film: these bytes are not a film"},
     };
     set_up(context(), settings(0));
     accumulate_on(context(), 12);

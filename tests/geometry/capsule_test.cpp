@@ -192,7 +192,7 @@ TEST_F(Capsules, AreRefusedWithTheReason) {
     given.capsules[2].end[1] = 0.0;
     array = given.array();
     array.motion = array.center;
-    expect_end(refusal(array), "must be NULL where end.data is set: capsules do not move");
+    expect_end(refusal(array), "must be NULL with end.data, because capsules do not move");
     array = given.array();
     array.end.type = PT_TYPE_UINT32;
     expect_end(refusal(array), "end.type = 3: must be PT_TYPE_FLOAT32 (1) or PT_TYPE_FLOAT64 (2)");

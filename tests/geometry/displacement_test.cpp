@@ -77,8 +77,9 @@ TEST(Displacement, OfSpheresThatShareAGridWithADistantOne) {
     EXPECT_EQ(rule->member, "center");
     EXPECT_EQ(rule->component, 1);
     EXPECT_EQ(rule->value, "(0, 0, -1e+09)");
-    EXPECT_TRUE(rule->rule.starts_with("it reaches so far that centers are held to 0.866, which moves some in view by "
-                                       "up to 126.7 pixels in the picture: "))
+    EXPECT_TRUE(
+        rule->rule.starts_with("it reaches so far that centers are stored to 0.866, which moves some in view by "
+                               "up to 126.7 pixels in the picture: "))
         << rule->rule;
     EXPECT_TRUE(displaced({{{0, 0, -5}, 1, half}, {{0, 0, -1e7}, 1, half}})) << "1.7 pixels";
     EXPECT_FALSE(displaced({{{0, 0, -5}, 1, half}, {{0, 0, -5e6}, 1, half}})) << "0.87 pixels";
@@ -99,7 +100,7 @@ TEST(Displacement, OfTranslucentRadii) {
     ASSERT_TRUE(rule);
     EXPECT_EQ(rule->member, "radius");
     EXPECT_EQ(rule->value, "1050");
-    EXPECT_TRUE(rule->rule.starts_with("where there are opacities, radii are held to 2^-16 of themselves"))
+    EXPECT_TRUE(rule->rule.starts_with("in scenes with opacities radii are stored to 2^-16 of themselves"))
         << rule->rule;
 }
 
@@ -121,7 +122,7 @@ TEST(Displacement, OfLongCapsules) {
     ASSERT_TRUE(rule);
     EXPECT_EQ(rule->member, "end");
     EXPECT_EQ(rule->value, "(2100, 0, -1.5)");
-    EXPECT_TRUE(rule->rule.starts_with("the capsule is 4200 long and held to 2^-21 of that")) << rule->rule;
+    EXPECT_TRUE(rule->rule.starts_with("the capsule is 4200 long and stored to 2^-21 of its length")) << rule->rule;
     EXPECT_FALSE(displaced_capsule({-1e6, 0, 1.5}, {1e6, 0, 1.5}, 0.5)) << "behind the camera";
     EXPECT_FALSE(displaced_capsule({0, 0, -1e6}, {1e5, 0, -1e6}, 0.5)) << "far away";
     pt::Camera parallel = ahead;

@@ -135,9 +135,9 @@ TEST_F(HugeMotion, IsRefusedWhereItIsTooLong) {
     EXPECT_EQ(pt_accumulate(context(), &info), PT_OK) << pt_last_error(context());
     set_up_floor({1e7, {312501, 0, 0}});
     EXPECT_EQ(pt_accumulate(context(), &info), PT_ERROR_UNSUPPORTED);
-    EXPECT_STREQ(pt_last_error(context()), "spheres[1].motion = (312501, 0, 0): a sphere whose surface, as the shutter "
-                                           "opens, is nearer to the camera than a 65536th of its "
-                                           "radius (1e+07) must move less than a 32nd of it while the shutter is open");
+    EXPECT_STREQ(pt_last_error(context()), "spheres[1].motion = (312501, 0, 0): must be less than a 32nd of the radius "
+                                           "(1e+07) while the shutter is open, because the surface is nearer than a "
+                                           "65536th of it to the camera");
     set_up_floor({1e7, {312501, 0, 0}}, 0.25, 0.5);
     EXPECT_EQ(pt_accumulate(context(), &info), PT_OK) << "while the shutter is open it moves less";
     set_up_floor({6e4, {1e6, 0, 0}});

@@ -178,7 +178,7 @@ TEST(SphereArrays, OfOtherSizesAreRefused) {
     unlike[1].struct_size = 40;
     const pt::Error error = error_of([&] { particles.validated(unlike); });
     EXPECT_EQ(error.code(), PT_ERROR_INVALID_ARGUMENT);
-    EXPECT_STREQ(error.what(), "sphere_arrays[1].struct_size = 40: must be that of sphere_arrays[0] (120)");
+    EXPECT_STREQ(error.what(), "sphere_arrays[1].struct_size = 40: must be equal to that of sphere_arrays[0] (120)");
 }
 
 TEST(SphereArrays, ColorsMultiplyTheDiffuse) {

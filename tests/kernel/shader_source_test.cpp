@@ -137,7 +137,7 @@ TEST_F(ShaderSourceTest, IncludedFilesAreFoundInTwoPlaces) {
 
 TEST_F(ShaderSourceTest, AngleBracketsAreRefused) {
     shaders.replace("pathtrace.comp", "#include \"film.glsl\"", "#include <film.glsl>");
-    expect_complaint("only #include \"name\" is known");
+    expect_complaint("only #include \"name\" is supported");
 }
 
 TEST_F(ShaderSourceTest, AShaderWithoutMainIsRefused) {

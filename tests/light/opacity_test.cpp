@@ -261,9 +261,8 @@ TEST_F(Opacity, IsRefusedWithTheReason) {
     given.capsules[4].opacity = 0.5F;
     given.capsules[1].opacity = 0.9F;
     given.materials[1].flags = PT_MATERIAL_HIDDEN_FROM_CAMERA;
-    EXPECT_NE(
-        refusal().find("sphere_arrays[0].material[1] = 1: must be of a material that neither emits nor is hidden"),
-        std::string::npos);
+    EXPECT_NE(refusal().find("sphere_arrays[0].material[1] = 1: must be a material that neither emits nor is hidden"),
+              std::string::npos);
 }
 
 } // namespace

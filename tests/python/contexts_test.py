@@ -171,7 +171,7 @@ class Libraries(unittest.TestCase):
 
     def test_what_is_no_libpt_is_refused(self):
         for path in "/no/such/library", "libc.so.6":
-            with self.assertRaisesRegex(ImportError, f"{path} is no libpt"):
+            with self.assertRaisesRegex(ImportError, f"{path} cannot be loaded as libpt"):
                 _library.load_library(path)
         with mock.patch.object(_library, "version_text", return_value="0.2.9"):
             with self.assertRaisesRegex(ImportError, f"is libpt 0.2.9; this package is for {_library.SONAME}"):

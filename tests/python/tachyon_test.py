@@ -106,7 +106,7 @@ class Sections(unittest.TestCase):
         fog = "Fog {} Start 0.5 End 10 Density 0.4 Color 1 1 1\nTexDef gold"
         for kind in ("Linear", "Exp", "Exp2"):
             found = parsed(("TexDef gold", fog.format(kind)))
-            self.assertEqual(found.notes, ["a.dat:16: FOG: it is left out, far surfaces have their full colors"])
+            self.assertEqual(found.notes, ["a.dat:16: FOG is left out, so far surfaces have their full colors"])
             self.assertEqual(len(found.scene.sphere_arrays[0]), 2)
         self.assertEqual(parsed(("TexDef gold", fog.format("Off"))).notes, [])
 
@@ -149,11 +149,11 @@ class Sections(unittest.TestCase):
                 ("Rad 2 ", "Rad -2 ", "19: RAD = -2: must be above 0"),
                 ("Rad 2 ", "Rad nan ", '19: RAD = "nan": must be a finite number'),
                 ("Rad 2 ", "2 ", '19: "2" must be RAD'),
-                ("Aspectratio 1", "Aspectratio 1.5", "7: ASPECTRATIO: must be 1, pixels are square"),
+                ("Aspectratio 1", "Aspectratio 1.5", "7: ASPECTRATIO: must be 1, because pixels are square"),
                 ("Zoom 0.5", "Projection Fisheye Zoom 0.5",
                  '6: PROJECTION "FISHEYE": must be PERSPECTIVE, PERSPECTIVE_DOF or ORTHOGRAPHIC'),
                 ("End_Camera", "Frustum -1 1 -0.25 0.75 End_Camera",
-                 "13: FRUSTUM: must be even about the middle, and of square pixels"),
+                 "13: FRUSTUM: must be symmetric about the middle, with square pixels"),
                 ("Normal 0 2 1", "Normal 0 0 0", "22: NORMAL: must not be 0 0 0"),
                 ("TexFunc 0", "TexFunc 11", "17: TEXFUNC: must be a whole number from 0 to 10"),
                 ("Resolution 64", "Resolution 6.5", "3: RESOLUTION = 6.5: must be a whole number from 1 to 2^32 - 1"),
@@ -184,8 +184,8 @@ class Sections(unittest.TestCase):
             ("Trans_Max_Surfaces 4", "Ambient_Occlusion Ambient_Color 1 1 1 Rescale_Direct 0.3 Samples 12"))
         self.assertEqual(found.notes, [
             "a.dat:4: AMBIENT_OCCLUSION: its light from all sides is left out",
-            "a.dat:16: OPACITY: light through surfaces is left out, they are opaque",
-            "a.dat:17: TEXFUNC: patterns and images on surfaces are left out, their plain color is used"])
+            "a.dat:16: OPACITY: transparency is left out, so surfaces are opaque",
+            "a.dat:17: TEXFUNC: patterns and images on surfaces are left out, so they have their plain color"])
 
 
 class Lamps(unittest.TestCase):

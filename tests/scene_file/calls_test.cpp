@@ -238,7 +238,7 @@ TEST(SceneFileCalls, GiveFrames) {
     EXPECT_EQ(source_of(file, rule_of("camera", -1, "position")).override_index, -1);
     info.text = "{}";
     info.text_bytes = 2;
-    EXPECT_EQ(refusal(info, PT_ERROR_INVALID_SCENE), "s.json: has no animation, and so no frames");
+    EXPECT_EQ(refusal(info, PT_ERROR_INVALID_SCENE), "s.json: has no animation, and therefore no frames");
 }
 
 TEST(SceneFileCalls, ReadColumns) {

@@ -69,7 +69,7 @@ class Camera:
         """
         centers = real_column("center", center, 3, None)
         if not len(centers):
-            raise ValueError("center has no spheres: must have one at least")
+            raise ValueError("center has no spheres: must have at least one")
         check_finite("center", center)
         check_finite("radius", radius, positive=True)
         right, above, back = _axes(direction, up)

@@ -43,7 +43,7 @@ def misnamed(files: Sequence[tuple[str, Sequence[str]]], source: str) -> tuple[s
             return f"{name}: its folder {place.parent} does not exist or cannot be written to", FILES
     names = [os.path.realpath(name) for name, _ in files]
     if len(set(names)) < len(names) or os.path.realpath(source) in names:
-        return f"an output is named twice, or is {source}", USAGE
+        return f"an output must not be named twice, nor be {source}", USAGE
     return None
 
 

@@ -41,7 +41,7 @@ def to_pixels(radiance: npt.ArrayLike, exposure: float | None, dtype: Any = np.u
         pixels=pixels.ctypes.data, size_bytes=pixels.nbytes)
     for name, value in display.items():
         if name not in FIELDS:
-            raise TypeError(f"{name} is no property of a display")
+            raise TypeError(f"{name}: unknown property of a display")
         setattr(info, name, FIELDS[name](*value) if isinstance(value, (tuple, list)) else value)
     loaded = library()
     checked(loaded, loaded.pt_display(info))

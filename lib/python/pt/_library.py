@@ -82,7 +82,7 @@ def load_library(path: str) -> ctypes.CDLL:
                 function.argtypes = parameters
                 function.restype = NOT_RESULTS.get(name, c_int32)
     except (OSError, AttributeError) as error:
-        raise ImportError(f"{path} is no libpt that can be loaded (PT_LIBRARY names another): {error}") from error
+        raise ImportError(f"{path} cannot be loaded as libpt (PT_LIBRARY can name another file): {error}") from error
     if version_text(loaded).rpartition(".")[0] != VERSION:
         raise ImportError(f"{path} is libpt {version_text(loaded)}; this package is for {SONAME}")
     return loaded

@@ -32,8 +32,8 @@ def _format_of(array: npt.NDArray[Any]) -> Format:
             if array.shape[2] == channels and array.dtype == dtype and array.strides[1:] == dense:
                 return format
     raise ValueError(f"out has shape {array.shape}, dtype {array.dtype} and strides {array.strides}: must be (height, "
-                     "width, 3) or (.., .., 4) of float32, (.., .., 4) of float16, or (.., .., 1) of uint32, with a row's pixels "
-                     "side by side")
+                     "width, 3) or (.., .., 4) of float32, (.., .., 4) of float16, or (.., .., 1) of uint32, with adjacent "
+                     "pixels in each row")
 
 
 def image_struct(pixels: npt.NDArray[Any], quantity: Quantity, shape: tuple[int, int], rectangle: Rectangle | None

@@ -26,7 +26,7 @@ def render(positions: npt.ArrayLike, radii: npt.ArrayLike, colors: npt.ArrayLike
     """
     centers = real_column("positions", positions, 3, None)
     if not len(centers):
-        raise ValueError("positions has no spheres: must have one at least")
+        raise ValueError("positions has no spheres: must have at least one")
     check_finite("positions", centers)
     check_finite("radii", radii, positive=True)
     if samples is None and error is None:

@@ -57,7 +57,7 @@ def scene_library() -> ctypes.CDLL:
             function.argtypes = parameters
             function.restype = NOT_RESULTS.get(name, c_int32)
     except (OSError, AttributeError) as error:
-        raise ImportError(f"{path} is no libpt-scene that can be loaded: {error}") from error
+        raise ImportError(f"{path} cannot be loaded as libpt-scene: {error}") from error
     return loaded
 
 

@@ -108,9 +108,9 @@ def check(arguments: argparse.Namespace) -> None:
     if arguments.resume and not arguments.checkpoint:
         refuse("--resume: needs --checkpoint")
     if arguments.tls and not arguments.scheduler:
-        refuse("--tls: needs --scheduler, as tls://host:8786")
+        refuse("--tls: needs --scheduler with an address like tls://host:8786")
     if arguments.frames and arguments.checkpoint:
-        refuse("--checkpoint: not with --frames; --skip-existing continues after the finished frames")
+        refuse("--checkpoint: cannot be used with --frames; --skip-existing continues after the finished frames")
     if arguments.checkpoint and not arguments.resume and pathlib.Path(arguments.checkpoint).exists():
         refuse(f"--checkpoint {arguments.checkpoint}: exists; continue from it by --resume")
     check_files(arguments)
@@ -125,7 +125,7 @@ def check_files(arguments: argparse.Namespace) -> None:
         if not set(arguments.layers.split(",")) <= FILM_LAYERS:
             refuse(f"--layers {arguments.layers}: must be of {', '.join(sorted(FILM_LAYERS))}, separated by commas")
         if not any(name.lower().endswith(".exr") for name in arguments.output):
-            refuse("--layers: needs -o FILE.exr, as no other format has layers")
+            refuse("--layers: needs -o FILE.exr, because no other format has layers")
 
 
 def written(arguments: argparse.Namespace) -> list[str]:

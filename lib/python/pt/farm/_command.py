@@ -125,7 +125,7 @@ def render_pictures(arguments: argparse.Namespace, signals: Signals) -> int:
             write_pictures(result.film, arguments, file.display, frame)
             signals.is_rendering = False
             if len(result.devices) > 1 and not arguments.quiet:
-                tell("pt-farm", "devices were mixed: the picture is right, but not to the bit: "
+                tell("pt-farm", "devices were mixed, so the picture is right, but not bit by bit: "
                                 f"{'; '.join(result.devices)}")
             if signals.number:
                 break

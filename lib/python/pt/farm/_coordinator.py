@@ -272,7 +272,7 @@ class Coordinator:
             if not is_film_of(opened.film, part, self._shape):
                 raise ValueError("it has other samples than requested")
             if identity not in (None, opened.identity):
-                raise ValueError("it is of another picture or device than the films before")
+                raise ValueError("it belongs to another picture or device than the earlier films")
             return outcome, opened
         except (ValueError, IncompatibleError) as error:
             return replace(outcome, error=f"its film is refused: {error}"), None

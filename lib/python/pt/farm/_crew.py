@@ -93,12 +93,12 @@ class Crew:
         differences = identity.differences(self.identity, (LAST,) if self._mixed else ())
         others = [name for name in differences if name not in WORTH_ANOTHER_WORKER]
         if others and self._goes_on:
-            raise FarmError(f"the checkpoint is of another picture: its {', '.join(others)} differs",
+            raise FarmError(f"the checkpoint belongs to another picture: its {', '.join(others)} differs",
                             Result.ERROR_INCOMPATIBLE)
         if differences == [LAST]:
             models, theirs = (" and ".join(sorted(each.models)) for each in (identity, self.identity))
-            self._ban(member, f"it has {models}, and the others {theirs}: films of different devices do not add up to "
-                              "the bits of one (mixed allows it)")
+            self._ban(member, f"it has {models}, and the others {theirs}: the sum of their films would not have the bits of "
+                              "one device (mixed allows it)")
         elif differences:
             self._ban(member, f"its films would differ from the others in {', '.join(differences)}")
         else:

@@ -36,7 +36,7 @@ def render(client: Any, job: Job, samples: int, *, target_error: float = 0.0, sa
         try:
             importlib.import_module("xxhash")
         except ImportError as error:
-            raise FarmError("mixed: the Python module xxhash is needed, to say so in films") from error
+            raise FarmError("mixed: needs the Python module xxhash, which marks films as mixed") from error
     coordinator = Coordinator(client, job, options, progress, 0 if target_error else samples)
     try:
         if target_error:

@@ -40,7 +40,7 @@ def fault_of(value: object, seconds: float) -> str:
         if not isinstance(getattr(value, name, None), kind):
             return f"{name} of type {type(getattr(value, name, None)).__name__}"
     if not 0.0 <= value.seconds <= CLOCKS * seconds:
-        return f"seconds = {value.seconds}, which must be from 0 to the {seconds:.3g} since it was asked"
+        return f"seconds = {value.seconds}: must be from 0 to {seconds:.3g}, the time since the request"
     if not all(isinstance(rule, BrokenRule) for rule in value.broken_rules):
         return "broken_rules of another type"
     return "" if value.result in set(Result) else f"result = {value.result}"

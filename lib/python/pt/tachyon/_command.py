@@ -19,7 +19,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("input", help="the scene of Tachyon")
     parser.add_argument("-o", "--output", required=True, metavar="SCENE.json", help="scene file to write; - is standard output")
     parser.add_argument("--leave-out-others", action="store_true",
-                        help="leave out triangles and whatever else cannot be rendered, and count them")
+                        help="leave out triangles and other things that cannot be rendered, and count them")
     options = parser.parse_args(arguments)
     try:
         found = read(options.input, leave_out_others=options.leave_out_others)

@@ -177,7 +177,7 @@ class _Reader:
         words.expect("COLOR")
         words.color("COLOR")
         if kind != "OFF":
-            self.left_out["FOG"] = f"{place}: FOG: it is left out, far surfaces have their full colors"
+            self.left_out["FOG"] = f"{place}: FOG is left out, so far surfaces have their full colors"
 
     def ring(self) -> None:
         words = self.words
@@ -227,7 +227,7 @@ class _Reader:
             words.refuse(f'PROJECTION "{projection}": must be PERSPECTIVE, PERSPECTIVE_DOF or ORTHOGRAPHIC')
         height = 1.0 / words.named("ZOOM", positive=True)
         if words.named("ASPECTRATIO") != 1.0:
-            words.refuse("ASPECTRATIO: must be 1, pixels are square")
+            words.refuse("ASPECTRATIO: must be 1, because pixels are square")
         words.named("ANTIALIASING")
         words.named("RAYDEPTH")
         self.camera = {"CENTER": words.vector("CENTER"), "VIEWDIR": words.direction("VIEWDIR"),
@@ -246,5 +246,5 @@ class _Reader:
         tolerance = 1e-4 * height
         if not (height > 0.0 and abs(width - self.aspect * height) <= self.aspect * tolerance and
                 abs(left + right) <= tolerance and abs(bottom + top) <= tolerance):
-            self.words.refuse("FRUSTUM: must be even about the middle, and of square pixels")
+            self.words.refuse("FRUSTUM: must be symmetric about the middle, with square pixels")
         return height

@@ -45,7 +45,7 @@ class Textures:
         diffuse = words.named("DIFFUSE", least=0.0)
         mirror = words.named("SPECULAR", least=0.0)
         if words.named("OPACITY", least=0.0) < 1.0:
-            self._leave_out("OPACITY", "light through surfaces is left out, they are opaque")
+            self._leave_out("OPACITY", "transparency is left out, so surfaces are opaque")
         if words.take_if("TRANSMODE"):
             words.word("the kind of transparency")
         if words.take_if("OUTLINE"):
@@ -79,7 +79,7 @@ class Textures:
             self._words.refuse("TEXFUNC: must be a whole number from 0 to 10")
         has_file, vectors = PATTERNS[int(number)]
         if number:
-            self._leave_out("TEXFUNC", "patterns and images on surfaces are left out, their plain color is used")
+            self._leave_out("TEXFUNC", "patterns and images on surfaces are left out, so they have their plain color")
         if has_file:
             self._words.word("the name of an image")
         for keyword in vectors:
