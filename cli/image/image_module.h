@@ -88,7 +88,7 @@ struct ImageLayer {
     std::span<const std::uint32_t> numbers = {}; // only for LayerKind::numbers
 };
 
-// Has layers of radiance, or signals.
+// Has either layers of radiance or signals.
 struct ImageData {
     ImageWindow window;
     std::span<const ImageLayer> layers = {};

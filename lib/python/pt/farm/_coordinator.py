@@ -111,7 +111,7 @@ class Coordinator:
         self._progress.samples_wanted = float((wanted * self._pixels).sum() / self._pixels.sum())
 
     def _seconds_to_ask(self) -> float:
-        """Seconds until `more` is called: late, so that more tiles are planned together, but before a worker is idle. Calls take at most
+        """Seconds until `more` is called. A late call plans more tiles together, but must come before a worker is idle. Calls take at most
         half of the time."""
         if self._waiting or not self._open or not self._has_only or self._progress.parts == self._asked_at:
             return float("inf")

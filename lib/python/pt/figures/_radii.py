@@ -22,7 +22,7 @@ MOST_PAIRS: Final = 4_000_000
 TABLE_BITS: Final = 20
 COVER: Final = 0.01  # least fraction of the picture that balls of unknown radii cover; by taste
 THIN: Final = 0.001  # least radius of these balls, relative to the picture's side
-SLACK: Final = 0.225  # angstroms: half of the most by which bonds exceed covalent radii
+SLACK: Final = 0.225  # angstroms; half of the greatest excess of a bond over covalent radii
 MOST_FACTOR: Final = 3.0  # largest factor of covalent radii, so that balls of dilute gases stay apart; by taste
 STEPS: Final = np.indices((3, 3, 3)).reshape(3, 1, 27) - 1
 

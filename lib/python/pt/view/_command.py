@@ -84,7 +84,7 @@ def address_file(what: str) -> pathlib.Path:
 
 
 def open_browser(address: str) -> IO[str]:
-    """The file is readable for its user alone, because all users see the arguments of a process."""
+    """Passes the address in a file that only its user can read, because all users see the arguments of a process."""
     user_cache().mkdir(parents=True, exist_ok=True)
     file = tempfile.NamedTemporaryFile("w", suffix=".html", dir=user_cache())
     file.write(f'<meta http-equiv="refresh" content="0; url={address}">')

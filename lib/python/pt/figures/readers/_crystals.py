@@ -17,7 +17,7 @@ from pt.figures.readers._lines import Lines
 from pt.figures.readers._other import tried
 from pt.figures.readers._structures import divide_chains, frames_of
 
-SHARED: Final = 0.4  # angstroms: closer sites share one position
+SHARED: Final = 0.4  # angstroms; closer sites share one position
 
 WHOLE: Final = 0.99
 ROUNDED: Final = 1e-4  # fraction of an edge: coordinates this little below 0 are not wrapped
