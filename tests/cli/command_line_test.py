@@ -216,7 +216,7 @@ class RealDevice(CommandLineTest):
                              ' "materials": {"floor": {}},\n "spheres": [\n'
                              '{"center": [0, -1e7, 0], "radius": 1e7, "motion": [4e5, 0, 0], "material": "floor"}]}')
         self.expect(3, "render", "s.json", "-o", "a.png", "--size", "2x2", "--spp", "1",
-                    error="pt: s.json:4: spheres[0].motion = (400000, 0, 0): a sphere whose surface")
+                    error="pt: s.json:4: spheres[0].motion = (400000, 0, 0): must be less than a 32nd of")
         self.assertEqual(self.files(), ["s.json"])
 
     def test_the_picture_is_that_of_the_changed_scene(self):

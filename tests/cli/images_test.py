@@ -100,7 +100,7 @@ class StandardOutput(ImagesTest):
                                             "FAKE_PT_SIGNAL": f"{int(signal.SIGUSR1)}:8"})
         self.assertEqual((asked.returncode, asked.stdout), (0, once.stdout), asked.stderr)
         self.render("-o", "-", "--format", "png", "--preview-every", "1", code=2,
-                    error="--preview-every: needs the name of a file")
+                    error="--preview-every: needs -o and the name of a file")
 
     def test_its_format_has_to_be_given(self):
         self.render("-o", "-", code=2, error="-o -: standard output needs --format, one of exr, png, jpg, jpeg")

@@ -204,7 +204,7 @@ TEST(Animation, MistakesAreRefused) {
     for (const char *name :
          {"camera", "film.width", "render.seed", "camera.shutter", "spheres.center", "spheres[0]",
           "spheres[0].center[1]", "materials[0].diffuse", "camera.position=", "", "planes[0].", "x"}) {
-        EXPECT_NE(refusal("\"" + std::string(name) + "\": [[0, 1]]").find("the name must be that of a key"),
+        EXPECT_NE(refusal("\"" + std::string(name) + "\": [[0, 1]]").find("the name must be a key of the camera"),
                   std::string::npos)
             << name;
     }

@@ -23,8 +23,8 @@ OTHERS = (None, "zzzz", -1, 0, 0.5, 65, 1e-19, 5e9, 2e18, [], [0, 0, 0], [1, 2, 
 OTHERS_IN_ARRAYS = ("a", -1, 0, 2e18, [])
 
 # Schemas cannot compare values with each other.
-BEYOND_SCHEMAS = ("unknown material", "must be a later frame", "as many numbers as the one before",
-                  "must be that of a key")
+BEYOND_SCHEMAS = ("unknown material", "must be later than the previous key frame", "as many numbers as the previous",
+                  "the name must be a key of")
 
 
 def places(value, path=()):

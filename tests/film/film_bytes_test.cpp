@@ -152,8 +152,8 @@ TEST(FilmBytes, HeadersHaveOneForm) {
         {"pt film 1\ntile 0 0 1 1\nsamples 1 1\n\n",
          "film: samples = 1 1: must be a range of indices below 2^32 that begins after the end of the previous one"},
         {"pt film 1\ntile 0 0 1 1\nsamples 0 4294967297\n\n",
-         "film: samples = 0 4294967297: must be a range of indices below 2^32 that begins beyond the end of the one "
-         "before"},
+         "film: samples = 0 4294967297: must be a range of indices below 2^32 that begins after the end of the "
+         "previous one"},
         {"pt film 1\ntile 0 0 1 1\nsamples 0 2\nsamples 1 3\n\n",
          "film: samples = 1 3: must be a range of indices below 2^32 that begins after the end of the previous one"},
         {"pt film 1\ntile 0 0 1 1\nsamples 0 4294967296\n\n", "film: samples: a pixel holds at most 2^32 - 1"},
