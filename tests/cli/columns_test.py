@@ -121,7 +121,7 @@ class RealDevice(ColumnsTest):
         self.expect(3, "render", "s.json", "-o", "a.png", error=": capsules[0].end[0] = (inf, 0.5, -4): must be finite")
         self.scene(capsules=[{**singles[0], "material": "sky"}])
         self.expect(3, "render", "s.json", "-o", "a.png",
-                    error=': capsules[0].material = "sky": must be of a material without emission')
+                    error=': capsules[0].material = "sky": must be a material without emission')
         self.scene(capsules=[{**columns, "end": [1, 1, -5], "material": "sky"}])
         self.expect(3, "render", "s.json", "-o", "a.png", error=': capsules[0].material = "sky": must be of a material')
         del singles[1]["end"]

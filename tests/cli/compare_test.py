@@ -146,7 +146,7 @@ class LightOnDevice(CommandLineTest):
             self.expect(2, "compare", "plain.png", "plain.png", *option, error="need two films, or two .exr with")
         self.expect(2, "compare", "a.ptfilm", "a.ptfilm", "--min-change", "0", error="must be above 0 and at most 1")
         self.expect(2, "compare", "a.ptfilm", "a.ptfilm", "--difference", "d.exr", error="must end in .png")
-        self.expect(2, "compare", COURSEWORK, "a.ptfilm", "--shader-dir", ".", error="without REFERENCE")
+        self.expect(2, "compare", COURSEWORK, "a.ptfilm", "--shader-dir", ".", error="no REFERENCE")
 
     def test_kernels(self):
         if not os.path.exists(MODULE):

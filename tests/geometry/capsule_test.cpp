@@ -182,7 +182,7 @@ TEST_F(Capsules, AreRefusedWithTheReason) {
     };
     given.capsules[1].material = 2;
     pt_sphere_array array = given.array();
-    expect_end(refusal(array), "sphere_arrays[0].material[1] = 2: must be of a material without emission");
+    expect_end(refusal(array), "sphere_arrays[0].material[1] = 2: must be a material without emission");
     given.capsules[1].material = 0;
     given.capsules[2].end[1] = std::numeric_limits<double>::infinity();
     array = given.array();
