@@ -123,7 +123,7 @@ class RealDevice(ColumnsTest):
         self.expect(3, "render", "s.json", "-o", "a.png",
                     error=': capsules[0].material = "sky": must be a material without emission')
         self.scene(capsules=[{**columns, "end": [1, 1, -5], "material": "sky"}])
-        self.expect(3, "render", "s.json", "-o", "a.png", error=': capsules[0].material = "sky": must be of a material')
+        self.expect(3, "render", "s.json", "-o", "a.png", error=': capsules[0].material = "sky": must be a material')
         del singles[1]["end"]
         self.scene(capsules=singles)
         self.expect(3, "render", "s.json", "-o", "a.png", error='capsules[1]: "end" is missing')
