@@ -50,7 +50,7 @@ public:
 
     IncludeResult *includeLocal(const char *name, const char *including_file, std::size_t /*depth*/) override {
         if (is_endless_)
-            return refuse("not read, because a file includes itself");
+            return refuse("not read after this error");
         const fs::path path = find(name, including_file).lexically_normal();
         is_endless_ = std::ranges::count(open_files_, path) >= most_open_times;
         if (is_endless_)
