@@ -381,7 +381,7 @@ class Edits(unittest.TestCase):
                 course = page.frame(lambda state: state["course"])["course"]
                 self.assertEqual(course["title"], "step 1: emission")
                 self.assertTrue(course["verdict"].startswith("wrong: the start. "), course)
-                self.assertIn("its disc's share of the picture", course["measured"])
+                self.assertIn("its disc's fraction of the picture", course["measured"])
                 subprocess.run(["patch", "-s", "-p1", "-d", folder, "-i", SHADERS / "coursework/1-emission.diff"], check=True)
                 course = page.frame(lambda state: state["course"] and state["course"]["title"].startswith("step 2"))["course"]
                 self.assertTrue(course["verdict"].startswith("wrong: no bounces. "), course)
