@@ -146,7 +146,7 @@ class Command(unittest.TestCase):
                 (3, "repeat: points.npy has no cell", ("points.npy", "-o", "a.png", "--repeat", "2,1,1")),
                 (6, "its folder nowhere does not exist", ("water.xyz", "-o", "nowhere/a.png")),
                 (2, "named twice, nor be water.xyz", ("water.xyz", "-o", "a.png", "-o", "./a.png")),
-                (2, "or is data.png", ("data.png", "-o", "./data.png")),
+                (2, "nor be data.png", ("data.png", "-o", "./data.png")),
                 (2, "-o -: needs --format", ("water.xyz", "-o", "-")),
                 (2, "JPEG has no alpha", ("water.xyz", "-o", "a.jpg", "--background", "transparent")),
                 (2, "the name needs # signs", ("water.xyz", "-o", "a.png", "--turntable", "4")),
