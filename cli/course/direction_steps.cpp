@@ -52,9 +52,9 @@ std::vector<Pattern> direction_patterns() {
             near(lamplight(absolute_z, weight)), any_value, any_value);
         add("directions of the whole sphere", "Turn directions below the surface round.",
             near(lamplight(unturned, weight)), any_value, any_value);
-        add("paths one vertex short", "The camera's ray meets vertex 1, so there are MAX_PATH_LENGTH vertices.",
+        add("paths one vertex short", "The camera's ray hits vertex 1, so there are MAX_PATH_LENGTH vertices.",
             exact(right, 0.0), sum(albedo, ball_length - 1), exactly(1.0));
-        add("paths one vertex long", "The camera's ray meets vertex 1, so there are MAX_PATH_LENGTH vertices.",
+        add("paths one vertex long", "The camera's ray hits vertex 1, so there are MAX_PATH_LENGTH vertices.",
             any_values(3), sum(albedo, ball_length + 1), exactly(1.0));
     }
     patterns.push_back({"no bounces", "Continue the path from each surface.",
@@ -85,7 +85,8 @@ std::vector<Pattern> throughput_patterns() {
                               joined(exact(lamps, scale), {exactly(light_in_a_ball(scale * q, scale * c * c))}))};
     };
     return {scaled("", "", 1.0),
-            scaled("missing 2 pi", "One direction counts by 1 / density, which is 2 pi for uniform directions.",
+            scaled("missing 2 pi",
+                   "Divide the light of a direction by its density, which is 1 / (2 pi) for uniform directions.",
                    1.0 / two_pi),
             scaled("1.98 pi", "The density of uniform directions is 1 / (2 pi); is a constant rounded?", 0.99),
             scaled("the sphere's density", "Directions on a hemisphere have twice the density of those on the sphere.",
@@ -105,7 +106,8 @@ std::vector<Pattern> throughput_patterns() {
              joined({exactly(2.0), exactly((n + 2.0) / (n + 1.0)), exactly(1.0)},
                     joined(near(lamplight(to_the_normals_side, [](double) { return 2.0; })),
                            {exactly(light_in_a_ball(2.0 * (1.0 - c), 2.0 * c))}))},
-            {"throughput of the last surface alone", "The throughput is a product: multiply it, do not replace it.",
+            {"throughput of the last surface alone",
+             "The throughput is a product: multiply it instead of replacing it.",
              joined({exactly(1.0), exactly(1.0), exactly(1.0)}, joined(exact(lamps), {exactly(50.0 * q * (1.0 + c))}))},
             {"no throughput", "Multiply emission by the throughput of the path that leads to it.",
              joined({exactly(1.0), exactly(1.0), exactly(1.0)},

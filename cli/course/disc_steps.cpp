@@ -41,7 +41,7 @@ std::vector<Measured> measure_emission(CourseKernels &kernels) {
     return {color("a lamp's emission, red", 0),
             color("a lamp's emission, green", 1),
             color("a lamp's emission, blue", 2),
-            {"its disc's share of the picture", mean / picture.at(middle, middle, 0), 0.02 * share}};
+            {"its disc's fraction of the picture", mean / picture.at(middle, middle, 0), 0.02 * share}};
 }
 
 std::vector<Pattern> emission_patterns() {
@@ -70,16 +70,16 @@ std::vector<Measured> measure_filter(CourseKernels &kernels) {
 }
 
 std::vector<Pattern> filter_patterns() {
-    return {
-        {"", "", disc_values(false, places(1.0, 0.0))},
-        {"no filter", "Send rays anywhere in the pixel, not only through its middle.",
-         disc_values(false, places(0.0, 0.5))},
-        {"half a pixel off", "A pixel's places are from 0 to 1, not from -1/2.", disc_values(false, places(1.0, -0.5))},
-        {"half a pixel off", "A pixel's places are from 0 to 1: its middle needs no addition.",
-         disc_values(false, places(1.0, 0.5))},
-        {"equal numbers in all dimensions", "Right and down need a number each.",
-         disc_values(false, places(1.0, 0.0, true))},
-        {"a box of two pixels", "Numbers in [0, 1) cover one pixel.", disc_values(false, places(2.0, -0.5))}};
+    return {{"", "", disc_values(false, places(1.0, 0.0))},
+            {"no filter", "Send rays anywhere in the pixel, not only through its middle.",
+             disc_values(false, places(0.0, 0.5))},
+            {"half a pixel off", "Places in a pixel are from 0 to 1, not from -1/2.",
+             disc_values(false, places(1.0, -0.5))},
+            {"half a pixel off", "Places in a pixel are from 0 to 1, so do not add its middle.",
+             disc_values(false, places(1.0, 0.5))},
+            {"equal numbers in all dimensions", "The coordinates to the right and down need a number each.",
+             disc_values(false, places(1.0, 0.0, true))},
+            {"a box of two pixels", "Numbers in [0, 1) cover one pixel.", disc_values(false, places(2.0, -0.5))}};
 }
 
 // ---- 7: motion ------------------------------------------------------------------------------------------------------
@@ -97,8 +97,8 @@ std::vector<Pattern> motion_patterns() {
         return disc_values(true, samples);
     };
     return {{"", "", at(1.0, 0.0)},
-            {"nothing moves", "Give the spheres' positions at the sample's time.", at(0.0, 0.0)},
-            {"one time for all samples", "Each sample has a time of its own.", at(0.0, 0.5)},
+            {"nothing moves", "Use the spheres' positions at the sample's time.", at(0.0, 0.0)},
+            {"one time for all samples", "Each sample has its own time.", at(0.0, 0.5)},
             {"motion about the start", "The shutter opens at time 0 and closes at 1.", at(1.0, -0.5)},
             {"motion twice as far", "Times are from 0 to 1.", at(2.0, 0.0)}};
 }

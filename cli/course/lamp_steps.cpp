@@ -49,7 +49,8 @@ std::vector<Measured> measure_lamps(CourseKernels &kernels) {
     SceneFile dark = shadow();
     dark.render.estimator = PT_ESTIMATOR_LIGHT;
     measured.push_back(kernels.edited(dark).mean("full shadow", 0));
-    measured.push_back(kernels.samples_needed("samples for one of the library's", lamp_scene("coursework-lamps.json")));
+    measured.push_back(
+        kernels.samples_needed("samples needed per library sample", lamp_scene("coursework-lamps.json")));
     return measured;
 }
 
@@ -60,15 +61,15 @@ std::vector<Pattern> lamp_patterns() {
     const double ball = light_in_a_ball(q, c * c);
     const Range dark = exactly(0.0);
     const double x = red_lamp_cosine();
-    const char *by_chance = "lamps are met by chance";
-    const char *to_a_lamp = "Send a direction to a lamp at each surface.";
+    const char *by_chance = "lamps are hit by chance";
+    const char *to_a_lamp = "Send a ray to a lamp at each surface.";
     const auto noisy = [&](const char *name, const char *hint, double variance) {
         return Pattern{
             name, hint,
             joined(exact(right), {exactly(std::sqrt(variance)), exactly(ball), dark, {most_needed, infinity}})};
     };
     return {{"", "", joined(exact(right), {any_value, exactly(ball), dark, {0.0, most_needed}})},
-            {"emission counted twice", "A lamp that was asked for must not count where a direction meets it.",
+            {"emission counted twice", "A lamp that is sampled must not count where a reflected ray hits it.",
              joined(exact(right, 2.0), {any_value, exactly(2.0 * ball), dark, any_value})},
             {"probability of the lamp forgotten", "Divide by the probability of choosing this lamp.",
              joined(exact(right, 1.0 / lamp_count), {any_value, exactly(ball), dark, any_value})},
@@ -77,23 +78,23 @@ std::vector<Pattern> lamp_patterns() {
                     {any_value, any_value, dark, any_value})},
             {"no shadows", "Light counts only if the lamp is the nearest surface.",
              joined(any_values(5), {{1e-6, infinity}, any_value})},
-            {"paths one vertex long", "The last vertex must not ask for lamps.",
+            {"paths one vertex long", "The last vertex must not sample lamps.",
              joined(any_values(4), {exactly(light_in_a_ball(q, c * c, 4)), dark, any_value})},
-            noisy("lamps chosen alike", "Ask every lamp, or choose by emission and solid angle.",
+            noisy("lamps chosen alike", "Sample every lamp, or choose one by emission and solid angle.",
                   variance_of_choice(x, lamp_count)),
             noisy(by_chance, to_a_lamp, variance_by_cosine(x)),
             noisy(by_chance, to_a_lamp, variance_of_uniform(x))};
 }
 
 std::vector<Measured> measure_outside(CourseKernels &kernels) {
-    return {kernels.samples_needed("samples for one of the library's", lamp_scene("coursework-outside.json"))};
+    return {kernels.samples_needed("samples needed per library sample", lamp_scene("coursework-outside.json"))};
 }
 
 // Chance and equal choice have nearly the same noise here.
 std::vector<Pattern> outside_patterns() {
     return {{"", "", {{0.0, most_needed}}},
-            {"lamps met by chance or chosen alike",
-             "Ask every lamp, or choose by emission and solid angle.",
+            {"lamps hit by chance or chosen alike",
+             "Sample every lamp, or choose one by emission and solid angle.",
              {{most_needed, infinity}}}};
 }
 

@@ -38,7 +38,7 @@ std::vector<Pattern> number_patterns() {
         return joined(exact(right), {shifted_variance, unshifted_variance});
     };
     const char *equal_numbers = "equal numbers in all dimensions";
-    const char *own_base = "Each number of a sample needs a base of its own.";
+    const char *own_base = "Each number of a sample needs its own base.";
     std::vector<Pattern> patterns{
         {"", "", values(better_than_random, exactly(0.0))},
         {"numbers are still random", "The sampler halton-cp must return Halton's points.",

@@ -38,7 +38,7 @@ MISTAKES = (
     ("6a-cosine", "max(cosine, 1.0e-6) / PI", "max(cosine, 1.0e-6) / (2.0 * PI)", "2 pi instead of pi"),
     ("6b-lamps", "if (!ASKS_LAMPS || length == 1u || hit.surface >= LAMP_COUNT)\n", "", "emission counted twice"),
     ("6b-lamps", "surface == lamp)", "surface < 99u)", "no shadows"),
-    ("6b-lamps", "const bool ASKS_LAMPS = ", "const bool ASKS_LAMPS = false && ", "lamps are met by chance"),
+    ("6b-lamps", "const bool ASKS_LAMPS = ", "const bool ASKS_LAMPS = false && ", "lamps are hit by chance"),
     ("6b-lamps", ASKING, ASKING.replace("for (uint lamp = 0u; lamp < LAMP_COUNT", """uint chosen = min(uint(next_number() * LAMP_COUNT), LAMP_COUNT - 1u);
     for (uint lamp = chosen; lamp == chosen""").replace("light +=", "light += float(LAMP_COUNT) *"), "lamps chosen alike"),
     ("7-motion", "time = next_number();", "time = 0.5;", "one time for all samples"),
