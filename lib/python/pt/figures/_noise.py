@@ -18,7 +18,7 @@ from pt._scene import Scene
 
 MOST_NOISE: Final = 1.5  # steps of 1/255; by taste
 FIRST_SAMPLES: Final = 16  # the fewest with a stated error
-MOST_SAMPLES: Final = 4096
+MOST_SAMPLES: Final = 256  # of a pixel: fine textures hide what noise is left; by taste
 WORST: Final = 1.5  # largest noise of a neighbourhood, relative to MOST_NOISE; by taste
 SHARE: Final = 1.03  # a round aims at this multiple of the allowed square, because quasi-random samples do better than random ones
 SEQUENCES: Final = 1.0 / math.sqrt(7.0)  # the error of quasi-random points may be this fraction of the stated one

@@ -178,7 +178,8 @@ class Options:
                                    read=_stops, rule=(lambda stops: -64.0 <= stops <= 64.0, "from -64 to 64"))
 
     samples: int | None = _samples(None, "N", "samples of a pixel. Default: as many as make the noise of the particles "
-                                   "invisible, 1.5 steps of 255 at most; at most 65536 with an error, 128 to denoise, 8 for a draft",
+                                   "invisible, 1.5 steps of 255 in 2x2 pixels, at most 256; at most 65536 with an error, 128 to "
+                                   "denoise, 8 for a draft",
                                    flag="--spp", read=int,
                                    rule=(lambda count: 1 <= count < 2**32, "at least 1 and below 2^32"))
     error: float | None = _samples(None, "E", "stops when the image's relative error is at most this: 0.02 or, on the command "
