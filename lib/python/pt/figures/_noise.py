@@ -20,6 +20,7 @@ MOST_NOISE: Final = 1.5  # steps of 1/255; by taste
 FIRST_SAMPLES: Final = 16  # the fewest with a stated error
 MOST_SAMPLES: Final = 256  # of a pixel: fine textures hide what noise is left; by taste
 WORST: Final = 1.5  # largest noise of a neighbourhood, relative to MOST_NOISE; by taste
+FLOOR: Final = 0.4  # the same of an even floor, where noise shows most
 SHARE: Final = 1.03  # a round aims at this multiple of the allowed square, because quasi-random samples do better than random ones
 SEQUENCES: Final = 1.0 / math.sqrt(7.0)  # the error of quasi-random points may be this fraction of the stated one
 
@@ -88,7 +89,7 @@ def _goals(squares: Doubles, covered: Array, counts: Doubles, noise: Noise) -> D
     pixels = _by_tiles(covered | (squares > 0.0))
     variances = _around(_by_tiles(squares) * counts) / np.maximum(_around(pixels), 1.0) * (pixels > 0.0)
     weights = variances * _by_tiles(covered)
-    needed = variances / (WORST * MOST_NOISE)**2
+    needed = variances / np.square(np.where(weights > 0.0, WORST, FLOOR) * MOST_NOISE)
     if noise.high > MOST_NOISE:
         most = SHARE * (MOST_NOISE * noise.rms / noise.high)**2 * float(covered.sum())
         roots = np.sqrt(weights)
