@@ -77,9 +77,10 @@ TEST_P(Invariance, Origin) {
     }
 }
 
-// Sums at 1e6 are rounded to 2^-34, which can change a float32 by 2^-23. The ends of rays then move by up to 1e-6 of
-// the scene's size. A few of the 2048 * 16 paths then hit another surface. Each path has about 1e-5 of the light. The
-// light of the other paths changes by about 1e-6.
+// Translated coordinates near 1e6 are rounded in double, by up to 2^-34. This can change the rounding of a float32 near
+// 1, and then its value by 2^-23. The ends of rays then move by up to 1e-6 of the scene's size. A few of the 2048 * 16
+// paths then hit another surface. Each path has about 1e-5 of the light. The light of the other paths changes by about
+// 1e-6.
 TEST_P(Invariance, OriginRounded) {
     InvarianceScene original = scene();
     original.turn({{0.36, 0.48, -0.8}, {-0.8, 0.6, 0}, {0.48, 0.64, 0.6}});

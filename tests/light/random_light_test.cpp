@@ -194,8 +194,8 @@ protected:
         return deviation(picture.has_tree ? with_tree_.get() : context(), given, exact, render);
     }
 
-    // Returns the sum of deviations, divided by the standard deviation of Student's t with 11 degrees of freedom.
-    // Images without noise would have infinite deviations.
+    // Returns the sum of deviations in units of its own standard deviation. A deviation is Student's t with 11 degrees
+    // of freedom, of variance 11 / 9. Deviations are clamped, since images without noise have infinite ones.
     static double pooled(const std::vector<double> &deviations) {
         double sum = 0.0;
         for (const double deviation : deviations)

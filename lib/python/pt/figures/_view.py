@@ -91,7 +91,7 @@ def view_axes(toward: Doubles, compass: Compass) -> Doubles:
 
 
 def principal_axes(centers: Array, compass: Compass) -> Doubles:
-    """Like view_axes(). The longest axis is right. The second one is up, on the side of the data's up. The shortest points toward the
+    """Like view_axes(). The longest axis is right. The second one is up, on the side of the data's up. The shortest axis is toward the
     camera, on the side of the three-quarter view."""
     sample = centers[::max(len(centers) // SAMPLE, 1)].astype(np.float64)
     spread = sample - sample.mean(axis=0)
