@@ -34,8 +34,8 @@ from pt._scene_file import Display, Override, SceneFile, load, scene_schema
 from pt._stats import DeviceInfo, ErrorEstimate, Stats, devices
 
 if TYPE_CHECKING:  # Figures import slowly.
-    from pt._render import render
     from pt.figures import Figure, figure
+    from pt.figures._render import render
 
 __all__ = [
     "BrokenRule", "Camera", "Comparison", "Context", "Curve", "DeviceInfo", "DeviceKind", "DeviceLostError", "Display", "Error", "Estimator", "Feature", "Figure",
@@ -57,7 +57,7 @@ if not TYPE_CHECKING:  # A type checker would accept any name.
     def __getattr__(name):
         if name == "__version__":
             return version()
-        modules = {"Figure": "pt.figures", "figure": "pt.figures", "render": "pt._render"}
+        modules = {"Figure": "pt.figures", "figure": "pt.figures", "render": "pt.figures._render"}
         if name not in modules:
             raise AttributeError(f"module 'pt' has no attribute {name!r}")
         return globals().setdefault(name, getattr(importlib.import_module(modules[name]), name))

@@ -3,6 +3,7 @@ from __future__ import annotations
 import ctypes
 import warnings
 import weakref
+from dataclasses import replace
 from types import TracebackType
 from typing import Any
 
@@ -12,7 +13,7 @@ import numpy.typing as npt
 from pt import _structs as structs
 from pt._callbacks import CallbackGuard, Log, Progress, log_function
 from pt._camera import Camera, RenderSettings
-from pt._denoise import render_denoised
+from pt._denoise import FIRST_SAMPLES, OTHER_SEED, joined_halves
 from pt._enums import CreateFlag, Format, Quantity, Result, Sampling
 from pt._errors import BrokenRule, InvalidStateError
 from pt._files import Path
@@ -235,7 +236,7 @@ class Context:
         self.set_scene(scene)
         self.set_camera(camera)
         if denoise:
-            image = render_denoised(self, settings, samples, target_error, progress)
+            image = _render_denoised(self, settings, samples, target_error, progress)
         else:
             self.set_render(settings)
             self.accumulate(samples, target_error=target_error, progress=progress)
@@ -270,6 +271,43 @@ class Context:
             return checked(self._library, result, handle)
         finally:
             self._in_call = False
+
+
+def _render_denoised(context: Context, settings: RenderSettings, samples: int, target_error: float,
+                    progress: Progress | None) -> Image:
+    most = max(samples // 2, 1)
+    halves = [settings, replace(settings, seed=settings.seed ^ OTHER_SEED)]
+    films: list[Film | None] = [None, None]
+    guides: tuple[npt.NDArray[np.float32], ...] = ()
+    done, image, taken, is_stopped = 0, None, 0, False
+
+    def share_of_all(fraction: float) -> bool:
+        nonlocal is_stopped
+        is_stopped = bool(progress and progress((taken + (count - done) * fraction) / (2 * most)))
+        return is_stopped
+
+    while done < most and not is_stopped and (image is None or image.error_bounds[1] > target_error > 0.0):
+        count = min(most, max(FIRST_SAMPLES, done + done // 2)) if target_error else most
+        parts = []
+        for index, half in enumerate(halves):
+            if is_stopped:
+                break
+            context.set_render(half)
+            if film := films[index]:
+                context.add_film(film)
+            if context.accumulate(count - done, progress=share_of_all if progress else None) == Result.CANCELLED:
+                break
+            taken += count - done
+            films[index] = context.film() if target_error else None
+            coverage = context.readback(Quantity.COVERAGE) if settings.coverage else None
+            parts.append((context.readback(), context.stats(), coverage))
+        if len(parts) < len(halves):
+            break
+        guides = guides or (context.readback(Quantity.ALBEDO), context.readback(Quantity.NORMAL))
+        image, done = joined_halves(parts, guides, settings), count
+    if image is None:
+        raise InvalidStateError("the samples ended before there were two images to denoise")
+    return image
 
 
 def _destroy(loaded: ctypes.CDLL, handle: ctypes.c_void_p, _log: object) -> None:

@@ -5,24 +5,17 @@ import importlib.util
 import os
 import pathlib
 from dataclasses import replace
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 import numpy as np
 import numpy.typing as npt
 
 from pt import _structs as structs
 from pt._camera import RenderSettings
-from pt._enums import Quantity, Result
-from pt._errors import InvalidStateError
-from pt._film import Film
 from pt._image import Image
 from pt._library import checked, library
 from pt._stats import ErrorEstimate, Stats, error_estimate_of
 from pt._text import c_string
-
-if TYPE_CHECKING:
-    from pt._callbacks import Progress
-    from pt._context import Context
 
 Pixels = npt.NDArray[np.float32]
 
@@ -67,44 +60,7 @@ def find_library() -> str | None:
     return None
 
 
-def render_denoised(context: Context, settings: RenderSettings, samples: int, target_error: float,
-                    progress: Progress | None) -> Image:
-    most = max(samples // 2, 1)
-    halves = [settings, replace(settings, seed=settings.seed ^ OTHER_SEED)]
-    films: list[Film | None] = [None, None]
-    guides: tuple[Pixels, ...] = ()
-    done, image, taken, is_stopped = 0, None, 0, False
-
-    def share_of_all(fraction: float) -> bool:
-        nonlocal is_stopped
-        is_stopped = bool(progress and progress((taken + (count - done) * fraction) / (2 * most)))
-        return is_stopped
-
-    while done < most and not is_stopped and (image is None or image.error_bounds[1] > target_error > 0.0):
-        count = min(most, max(FIRST_SAMPLES, done + done // 2)) if target_error else most
-        parts = []
-        for index, half in enumerate(halves):
-            if is_stopped:
-                break
-            context.set_render(half)
-            if film := films[index]:
-                context.add_film(film)
-            if context.accumulate(count - done, progress=share_of_all if progress else None) == Result.CANCELLED:
-                break
-            taken += count - done
-            films[index] = context.film() if target_error else None
-            coverage = context.readback(Quantity.COVERAGE) if settings.coverage else None
-            parts.append((context.readback(), context.stats(), coverage))
-        if len(parts) < len(halves):
-            break
-        guides = guides or (context.readback(Quantity.ALBEDO), context.readback(Quantity.NORMAL))
-        image, done = _joined(parts, guides, settings), count
-    if image is None:
-        raise InvalidStateError("the samples ended before there were two images to denoise")
-    return image
-
-
-def _joined(parts: list[tuple[Pixels, Stats, Pixels | None]], guides: tuple[Pixels, ...], settings: RenderSettings) -> Image:
+def joined_halves(parts: list[tuple[Pixels, Stats, Pixels | None]], guides: tuple[Pixels, ...], settings: RenderSettings) -> Image:
     (first, of_first, coverage), (second, of_second, other_coverage) = parts
     if coverage is not None and other_coverage is not None:
         coverage = (coverage + other_coverage) / 2
