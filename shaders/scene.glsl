@@ -173,7 +173,8 @@ Ball ball_of(uint surface, float time)
     return ball_among(SPHERE_COUNT, surface, time);
 }
 
-vec4 sphere_of_lamp(uint lamp, float time)
+// Returns the center and radius of the ball around a lamp.
+vec4 bound_of_lamp(uint lamp, float time)
 {
     if (TREE_LAMPS > 0u && lamp >= WALKED_LAMPS)
         return tree_ball(tree_lamp_place(lamp - WALKED_LAMPS), time).centre_radius;

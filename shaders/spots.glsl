@@ -136,7 +136,7 @@ Spots spots_from(Vertex vertex, float time)
     uint i = 0u;
     [[unroll]] do {
         SpotWord word = spot_word(i);
-        vec4 lamp = sphere_of_lamp(word.lamp, time);
+        vec4 lamp = bound_of_lamp(word.lamp, time);
         float radiance = emission_of_lamp(word.lamp).a;
         if (is_glow(word))
             spots.views[i] = view_glow(vertex, lamp, radiance, word);

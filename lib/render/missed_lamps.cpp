@@ -1,7 +1,5 @@
 #include "lib/render/missed_lamps.h"
 
-#include "lib/view/seen_scene.h"
-
 #include <pt/stats.h>
 
 #include <algorithm>
@@ -26,25 +24,24 @@ double smallest_lobe_share(const PreparedScene &scene, std::uint32_t estimator) 
 
 // Returns the fraction of directions that hit a sphere: (1 - cos a) / 2 = sin^2 a / (2 (1 + cos a)), which avoids
 // cancellation.
-double share_of(const SeenSphere &sphere) {
-    const double sine = sphere.radius / sphere.distance;
+double share_of(const MovingBall &ball, double distance) {
+    const double sine = ball.radius / distance;
     const double cosine = std::sqrt((1.0 - sine) * (1.0 + sine));
     return sine * sine / (2.0 * (1.0 + cosine));
 }
 
 } // namespace
 
-double smallest_lamp_share(std::span<const Sphere> lamps, std::span<const Material> materials, const Camera &camera) {
+double smallest_lamp_share(std::span<const Lamp> lamps) {
     constexpr double least_light = 0.01;
     std::vector<std::pair<double, double>> shares;
     double all_light = 0.0;
-    for (const Sphere &lamp : lamps) {
-        const Material &material = materials[lamp.material];
-        const SeenSphere seen(lamp, material, camera);
-        if (!seen.emits || seen.height() <= 0.0)
+    for (const auto &[bound, emission, hidden] : lamps) {
+        const double distance = glm::length(bound.open);
+        if (distance <= bound.radius)
             continue;
-        const double share = share_of(seen);
-        const double light = share * std::max({material.emission.r, material.emission.g, material.emission.b});
+        const double share = share_of(bound, distance);
+        const double light = share * std::max({emission.r, emission.g, emission.b});
         shares.emplace_back(share, light);
         all_light += light;
     }
@@ -60,7 +57,7 @@ bool may_miss_lamps(const PreparedScene &scene, const Camera &camera, const Rend
     constexpr double enough_hits = 1000.0; // calibrated (shaders/README.md, section 11)
     if (!finds_lamps_by_chance(settings.estimator, settings.max_path_length))
         return false;
-    const double lamp_share = smallest_lamp_share(scene.lamps(), scene.scene.materials, camera);
+    const double lamp_share = smallest_lamp_share(lamps_of(scene, camera));
     const double share = std::min(lamp_share, smallest_lobe_share(scene, settings.estimator));
     return static_cast<double>(samples) * share < enough_hits;
 }

@@ -21,7 +21,7 @@ struct Ball {
     std::array<glm::dvec3, 2> ends() const { return {glm::dvec3(open), glm::dvec3(open) + glm::dvec3(way)}; }
 };
 
-struct Lamp {
+struct ScaledLamp {
     Ball ball;
     double power;
     std::uint32_t index;
@@ -33,36 +33,36 @@ struct Node {
     float spread = 0.0F;
 };
 
-Ball ball_of(const SeenSphere &sphere) {
-    return {glm::vec3(sphere.open), glm::vec3(sphere.way), static_cast<float>(sphere.radius)};
+Ball ball_of(const MovingBall &ball) {
+    return {glm::vec3(ball.open), glm::vec3(ball.way), static_cast<float>(ball.radius)};
 }
 
 // Divides powers by the largest power. If the lamps' extent is above 1, multiplies them by the extent. The kernel's
 // quotients of power and squared distance are then between 1e-17 and 1e17.
-std::vector<Lamp> scaled_lamps(std::span<const TreeLamp> lamps) {
+std::vector<ScaledLamp> scaled_lamps(std::span<const TreeLamp> lamps) {
     double largest_power = 0.0;
     double size = 1.0;
-    std::vector<Lamp> scaled;
+    std::vector<ScaledLamp> scaled;
     scaled.reserve(lamps.size());
     for (const TreeLamp &lamp : lamps) {
-        const double power = lamp.radiance * lamp.sphere.radius * lamp.sphere.radius;
-        scaled.push_back({ball_of(lamp.sphere), power, lamp.lamp});
-        largest_power = std::max(largest_power, power);
-        size = std::max(size, glm::length(lamp.sphere.open - lamps.front().sphere.open));
+        const MovingBall &bound = lamp.lamp.bound;
+        scaled.push_back({ball_of(bound), lamp.lamp.power(), lamp.number});
+        largest_power = std::max(largest_power, scaled.back().power);
+        size = std::max(size, glm::length(bound.open - lamps.front().lamp.bound.open));
     }
     const double unit = std::exp2(std::floor(std::log2(largest_power)));
     const double factor = std::exp2(std::floor(std::log2(size)));
-    for (Lamp &lamp : scaled)
+    for (ScaledLamp &lamp : scaled)
         lamp.power = factor * std::max(lamp.power / unit, 0x1p-40);
     return scaled;
 }
 
 // The center is the mean weighted by power. Motions are straight, so distances from the center are largest at an end.
-Node node_of(std::span<const Lamp> lamps) {
+Node node_of(std::span<const ScaledLamp> lamps) {
     Node node;
     glm::dvec3 open(0.0);
     glm::dvec3 way(0.0);
-    for (const Lamp &lamp : lamps) {
+    for (const ScaledLamp &lamp : lamps) {
         node.power += lamp.power;
         open += lamp.power * glm::dvec3(lamp.ball.open);
         way += lamp.power * glm::dvec3(lamp.ball.way);
@@ -72,7 +72,7 @@ Node node_of(std::span<const Lamp> lamps) {
     const std::array middles = node.ball.ends();
     double radius = 0.0;
     std::array<double, 2> spreads{};
-    for (const Lamp &lamp : lamps) {
+    for (const ScaledLamp &lamp : lamps) {
         const std::array centres = lamp.ball.ends();
         const double lamp_radius = lamp.ball.radius;
         for (std::size_t end = 0; end < 2; ++end) {
@@ -108,7 +108,7 @@ std::uint64_t lamp_tree_words(std::uint32_t lamp_count, bool motion) {
 
 void write_lamp_tree(std::span<glm::vec4> words, std::span<const TreeLamp> lamps, bool motion) {
     const LampTreeShape shape(static_cast<std::uint32_t>(lamps.size()));
-    const std::vector<Lamp> scaled = scaled_lamps(lamps);
+    const std::vector<ScaledLamp> scaled = scaled_lamps(lamps);
     const std::uint64_t group_words = gpu::lamp_tree_group_words(motion ? 1 : 0);
     for (std::uint32_t level = 0; level <= shape.levels(); ++level) {
         const std::uint64_t nodes = 4 * shape.groups_of(level);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "lib/view/seen_scene.h"
+#include "lib/view/lamp.h"
 
 #include <glm/glm.hpp>
 
@@ -15,9 +15,8 @@ constexpr std::uint32_t least_tree_lamps = 32;
 std::uint64_t lamp_tree_words(std::uint32_t lamp_count, bool motion);
 
 struct TreeLamp {
-    SeenSphere sphere;
-    double radiance;
-    std::uint32_t lamp;
+    Lamp lamp;
+    std::uint32_t number;
 };
 
 // `words` must have the size lamp_tree_words(). `lamps` must be in the tree's order.

@@ -28,11 +28,11 @@ float reflectance(const glm::vec3 &color) {
     return static_cast<float>(mean_of_color(color));
 }
 
-double height_above(const CurvedPlane &plane, const SeenSphere &lamp) {
+double height_above(const CurvedPlane &plane, const MovingBall &lamp) {
     return std::abs(glm::dot(plane.normal, lamp.open) + plane.offset);
 }
 
-bool shows_image(const Material &material, const SeenSphere &lamp, double distance) {
+bool shows_image(const Material &material, const MovingBall &lamp, double distance) {
     const double sine = lamp.radius / distance;
     return mean_of_color(material.specular) >= least_image_specular && distance > lamp.radius &&
            1.0 / material.glossiness + sine * sine / 4.0 <= widest_image;
@@ -40,7 +40,7 @@ bool shows_image(const Material &material, const SeenSphere &lamp, double distan
 
 void add_images_in_spheres(std::vector<LightSpot> &spots, std::uint32_t lamp, const KernelSurfaces &surfaces,
                            const std::vector<Material> &materials) {
-    const SeenSphere &ball = surfaces.spheres[lamp];
+    const MovingBall &ball = surfaces.spheres[lamp];
     for (std::uint32_t i = surfaces.lamp_count + surfaces.sky_count; i < surfaces.spheres.size(); ++i) {
         const SeenSphere &sphere = surfaces.spheres[i];
         const Material &material = materials[sphere.material];
@@ -52,7 +52,7 @@ void add_images_in_spheres(std::vector<LightSpot> &spots, std::uint32_t lamp, co
 
 void add_spots_of_planes(std::vector<LightSpot> &spots, std::uint32_t lamp, const KernelSurfaces &surfaces,
                          const std::vector<Material> &materials) {
-    const SeenSphere &ball = surfaces.spheres[lamp];
+    const MovingBall &ball = surfaces.spheres[lamp];
     double farthest = 0.0;
     for (const CurvedPlane &plane : surfaces.planes)
         farthest = std::max(farthest, height_above(plane, ball));

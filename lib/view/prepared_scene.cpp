@@ -33,13 +33,9 @@ double film_unit(const std::vector<Material> &materials) {
     return std::ldexp(1.0, std::clamp(exponent - 8, -120, 120));
 }
 
-void add_lamps(std::vector<Sphere> &spheres, const SphereTree &tree) {
-    for (std::uint32_t lamp = 0; lamp < tree.lamp_materials().size(); ++lamp)
-        spheres.push_back(tree.lamp(lamp));
-}
-
 Scene with_lamps(Scene scene, const SphereTree &tree) {
-    add_lamps(scene.spheres, tree);
+    for (std::uint32_t lamp = 0; lamp < tree.lamp_materials().size(); ++lamp)
+        scene.spheres.push_back(tree.lamp(lamp));
     return scene;
 }
 
@@ -142,15 +138,6 @@ void PreparedScene::note_materials(const std::vector<bool> &used) {
     }
     film_unit = pt::film_unit(used_materials);
     gloss = std::ranges::any_of(used_materials, is_glossy);
-}
-
-std::vector<Sphere> PreparedScene::lamps() const {
-    std::vector<Sphere> lamps;
-    const auto is_lamp = [this](const Sphere &sphere) { return emits(scene.materials[sphere.material]); };
-    std::ranges::copy_if(scene.spheres, std::back_inserter(lamps), is_lamp);
-    if (tree)
-        add_lamps(lamps, *tree);
-    return lamps;
 }
 
 const std::string &PreparedScene::digest() const {

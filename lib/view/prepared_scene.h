@@ -32,8 +32,6 @@ struct PreparedScene {
     PreparedScene(CheckedScene checked, std::optional<std::uint32_t> tree_from, const PreparedScene *before,
                   WorkProgress &progress);
 
-    std::vector<Sphere> lamps() const;
-
     const std::string &digest() const;
 
 private:

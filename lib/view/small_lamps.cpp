@@ -1,5 +1,6 @@
 #include "lib/view/small_lamps.h"
 
+#include "lib/view/lamp.h"
 #include "lib/view/seen_scene.h"
 
 #include <algorithm>
@@ -139,34 +140,36 @@ void add_pieces(std::vector<LampPiece> &pieces, std::size_t first, Disc disc, in
 // A moving lamp counts at several times while the shutter is open. If it moves by more than a pixel between two times,
 // its disc at each time also stands for the pixels between.
 void add_lamp(std::vector<LampPiece> &pieces, const PreparedScene &scene, const Projection &projection,
-              const Window &window, const SeenSphere &lamp, const glm::dvec3 &emission) {
+              const Window &window, const Lamp &lamp) {
+    const MovingBall &ball = lamp.bound;
     constexpr double most_moments = 64.0;
     constexpr int all_lines = 256;
     constexpr int least_lines = 16;
-    const auto seen = [&](const glm::dvec3 &center) { return disc_of(projection.place(center), lamp.radius, window); };
-    if (!projection.is_ahead(lamp.open, lamp.radius) || !projection.is_ahead(lamp.close(), lamp.radius))
+    const auto seen = [&](const glm::dvec3 &center) { return disc_of(projection.place(center), ball.radius, window); };
+    if (!projection.is_ahead(ball.open, ball.radius) || !projection.is_ahead(ball.close(), ball.radius))
         return;
-    const double path = std::hypot(seen(lamp.close()).x - seen(lamp.open).x, seen(lamp.close()).y - seen(lamp.open).y);
+    const double path = std::hypot(seen(ball.close()).x - seen(ball.open).x, seen(ball.close()).y - seen(ball.open).y);
     const double moments = std::clamp(std::ceil(path), 1.0, most_moments);
     const double apart = std::max(path / moments, 1.0);
     const bool is_veiled = scene.tree && scene.tree->has_opacities();
     const std::size_t first = pieces.size();
     for (int moment = 0; moment < static_cast<int>(moments); ++moment) {
-        const glm::dvec3 center = lamp.open + (moment + 0.5) / moments * lamp.way;
+        const glm::dvec3 center = ball.open + (moment + 0.5) / moments * ball.way;
         const Disc disc = seen(center);
         if (!disc.overlaps(window.width, window.row_count))
             continue;
         const double bare_share = disc.size / std::max(disc.area() + 2.0 * disc.radius * path, 1.0);
         if (bare_share >= largest_share && !is_veiled)
             continue;
-        const double light = visible_share(scene, projection, center, lamp.radius);
+        const double light = visible_share(scene, projection, center, ball.radius);
         const double lamp_share = light * bare_share;
         if (light == 0.0 || lamp_share >= largest_share)
             continue;
         const bool is_spread = disc.area() > 1.5 * disc.size || path > disc.radius;
-        add_pieces(pieces, first, disc, std::max(static_cast<int>(all_lines / moments), least_lines),
-                   {0, 0, light * disc.size / disc.area() / (moments * apart), lamp_share, emission, apart, is_spread},
-                   window);
+        add_pieces(
+            pieces, first, disc, std::max(static_cast<int>(all_lines / moments), least_lines),
+            {0, 0, light * disc.size / disc.area() / (moments * apart), lamp_share, lamp.emission, apart, is_spread},
+            window);
     }
 }
 
@@ -175,12 +178,9 @@ void add_lamp(std::vector<LampPiece> &pieces, const PreparedScene &scene, const 
 std::vector<LampPiece> small_lamps_in_view(const PreparedScene &scene, const Projection &projection,
                                            std::uint32_t first_row, std::uint32_t row_count) {
     std::vector<LampPiece> pieces;
-    for (const Sphere &sphere : scene.lamps()) {
-        const Material &material = scene.scene.materials[sphere.material];
-        const SeenSphere seen(sphere, material, projection.camera());
-        if (!material.hidden)
-            add_lamp(pieces, scene, projection, {projection.width(), first_row, row_count}, seen, material.emission);
-    }
+    for (const Lamp &lamp : lamps_of(scene, projection.camera()))
+        if (!lamp.hidden)
+            add_lamp(pieces, scene, projection, {projection.width(), first_row, row_count}, lamp);
     return pieces;
 }
 

@@ -19,10 +19,6 @@ namespace pt {
 
 namespace {
 
-float mean(const glm::vec3 &color) {
-    return (color.r + color.g + color.b) / 3.0F;
-}
-
 // Proportional to specular reflectance. Diffuse reflectance counts twice, because its light comes from a hemisphere and
 // varies more.
 float specular_probability(const Material &material) {
@@ -118,16 +114,14 @@ std::vector<TreeLamp> tree_lamps(const KernelSurfaces &surfaces, const PreparedS
         lamp_of_sphere[surfaces.spheres[lamp].index] = lamp;
     std::vector<TreeLamp> lamps;
     lamps.reserve(scene.lamp_order.size());
-    const auto add = [&](const SeenSphere &seen, std::uint32_t lamp) {
-        lamps.push_back({seen, mean(scene.scene.materials[seen.material].emission), lamp});
-    };
     for (const std::uint32_t sphere : scene.lamp_order) {
         if (sphere >= sphere_count) {
             const Sphere in_tree = scene.tree->lamp(sphere - sphere_count);
-            const Material &material = scene.scene.materials[in_tree.material];
-            add(SeenSphere(in_tree, material, camera, sphere), surfaces.lamp_count + sphere - sphere_count);
+            lamps.push_back({lamp_of(in_tree, scene.scene.materials[in_tree.material], camera),
+                             surfaces.lamp_count + sphere - sphere_count});
         } else if (const std::uint32_t lamp = lamp_of_sphere[sphere]; lamp != no_lamp) {
-            add(surfaces.spheres[lamp], lamp);
+            const SeenSphere &seen = surfaces.spheres[lamp];
+            lamps.push_back({{seen, scene.scene.materials[seen.material].emission}, lamp});
         }
     }
     return lamps;

@@ -37,7 +37,7 @@ RATES = (0.1, 0.01, 1e-3, 1e-6)
 CHANGES = (0.005, 0.01, 0.03)
 LARGE, MANY = (96, 48), 256
 # Maps each change to file, text, and replacement.
-FAULTS = {"density of lamps by 3%": ("lights.glsl", "surface_of_lamp(choice.lamp)), density)",
+FAULTS = {"density of lamps by 3%": ("lamp.glsl", "surface_of_lamp(choice.lamp)), density)",
                                      "surface_of_lamp(choice.lamp)), 1.03 * density)"),
           "density of directions by 3%": ("phong.glsl", "0.5 / PI : density)", "0.5 / PI : 1.03 * density)"),
           "weight of spots": ("path.glsl", "towards.density * float(BRANCH_COUNT)", "towards.density"),

@@ -278,9 +278,11 @@ TEST(SmallLamps, PointsOneToACellMeetADiscAsOftenAsStated) {
 }
 
 double smallest_share(const std::vector<pt::Sphere> &spheres) {
-    const pt::Material black{glm::vec3(0), glm::vec3(0), glm::vec3(0), 0.0F};
-    const pt::Material bright{glm::vec3(0), glm::vec3(0), glm::vec3(0, 0, 5), 0.0F};
-    return pt::smallest_lamp_share(spheres, std::vector{black, bright}, camera);
+    pt::Scene scene;
+    scene.materials = {{glm::vec3(0), glm::vec3(0), glm::vec3(0), 0.0F},
+                       {glm::vec3(0), glm::vec3(0), glm::vec3(0, 0, 5), 0.0F}};
+    scene.spheres = spheres;
+    return pt::smallest_lamp_share(pt::lamps_of(pt::PreparedScene(scene), camera));
 }
 
 pt::Sphere ball_at(double distance, double radius, std::uint32_t material) {
