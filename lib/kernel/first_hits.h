@@ -1,7 +1,7 @@
 #pragma once
 
 #include "lib/film/film_header.h"
-#include "lib/kernel/pixel_results.h"
+#include "lib/kernel/resolved_pixels.h"
 #include "lib/kernel/scene_kernel.h"
 
 #include <cstdint>
@@ -32,7 +32,7 @@ public:
 private:
     vulkan::Device &device_;
     SceneKernel kernel_;
-    std::optional<PixelResults> results_;
+    std::optional<ResolvedPixels> results_;
 };
 
 } // namespace pt

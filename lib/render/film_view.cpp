@@ -59,7 +59,7 @@ void FilmView::read(const Image &image, const ImageQuery &query, const TileSampl
     ImageRows rows(image);
     const auto put = [&](std::span<const std::byte> pixels) { rows.put(pixels); };
     if (is_one_film()) {
-        home().image_reader().read(query, put);
+        home().resolve_to_host().read(query, put);
         return;
     }
     films(devices_);
@@ -81,7 +81,7 @@ void FilmView::read(const Image &image, const ImageQuery &query, const TileSampl
 std::optional<std::span<std::byte>> FilmView::map(const ImageQuery &query) {
     if (!home().device().policy().resolve_on_device || !is_one_film())
         return std::nullopt;
-    return home().image_reader().map(query);
+    return home().resolve_to_host().map(query);
 }
 
 void FilmView::read_on_host(const Image &image, const ImageQuery &query, const TileSamples &samples) const {

@@ -7,8 +7,8 @@
 #include "lib/film/tile_samples.h"
 #include "lib/kernel/error_reader.h"
 #include "lib/kernel/film_sum.h"
-#include "lib/kernel/image_reader.h"
 #include "lib/kernel/resolve.h"
+#include "lib/kernel/resolve_to_host.h"
 #include "lib/render/image.h"
 #include "lib/render/render_device.h"
 
@@ -52,7 +52,7 @@ private:
         Sum(const std::vector<FilmSum::Source> &sources, RenderDevice &home, std::uint32_t row_count);
 
         FilmSum rows;
-        ImageReader image;
+        ResolveToHost image;
         std::optional<ErrorReader> error;
     };
 

@@ -77,8 +77,8 @@ void RenderDevice::drop_kernel() noexcept {
 
 void RenderDevice::drop_bound() noexcept {
     drop_kernel();
-    image_reader_.reset();
-    buffer_writer_.reset();
+    resolve_to_host_.reset();
+    resolve_to_buffer_.reset();
     error_reader_.reset();
 }
 
@@ -166,18 +166,18 @@ DeviceFilm &RenderDevice::film() {
     return *film_;
 }
 
-ImageReader &RenderDevice::image_reader() {
+ResolveToHost &RenderDevice::resolve_to_host() {
     DeviceFilm &film = this->film();
-    if (!image_reader_)
-        image_reader_.emplace(device_, resolve_pipelines(), film);
-    return *image_reader_;
+    if (!resolve_to_host_)
+        resolve_to_host_.emplace(device_, resolve_pipelines(), film);
+    return *resolve_to_host_;
 }
 
-BufferWriter &RenderDevice::buffer_writer() {
+ResolveToBuffer &RenderDevice::resolve_to_buffer() {
     DeviceFilm &film = this->film();
-    if (!buffer_writer_)
-        buffer_writer_.emplace(device_, resolve_pipelines(), film, BufferWriter::piece_limits(device_.limits()));
-    return *buffer_writer_;
+    if (!resolve_to_buffer_)
+        resolve_to_buffer_.emplace(device_, resolve_pipelines(), film, ResolveToBuffer::piece_limits(device_.limits()));
+    return *resolve_to_buffer_;
 }
 
 // The path tracer's kernel owns the scene's buffers.

@@ -2,14 +2,14 @@
 #pragma once
 
 #include "lib/code/shader_source.h"
-#include "lib/kernel/buffer_writer.h"
 #include "lib/kernel/device_film.h"
 #include "lib/kernel/error_reader.h"
 #include "lib/kernel/film_sum.h"
 #include "lib/kernel/first_hits.h"
-#include "lib/kernel/image_reader.h"
 #include "lib/kernel/kernel.h"
 #include "lib/kernel/resolve.h"
+#include "lib/kernel/resolve_to_buffer.h"
+#include "lib/kernel/resolve_to_host.h"
 #include "lib/kernel/trace_pipelines.h"
 #include "lib/render/schedule.h"
 #include "lib/scene/render_settings.h"
@@ -41,8 +41,8 @@ public:
     // No work may be running.
     DeviceFilm &film();
 
-    ImageReader &image_reader();
-    BufferWriter &buffer_writer();
+    ResolveToHost &resolve_to_host();
+    ResolveToBuffer &resolve_to_buffer();
     ErrorReader &error_reader();
 
     // No work may be running.
@@ -120,8 +120,8 @@ private:
     std::optional<vulkan::ComputePipeline> estimate_;
     std::optional<vulkan::ComputePipeline> add_;
     std::optional<DeviceFilm> film_;
-    std::optional<ImageReader> image_reader_;
-    std::optional<BufferWriter> buffer_writer_;
+    std::optional<ResolveToHost> resolve_to_host_;
+    std::optional<ResolveToBuffer> resolve_to_buffer_;
     std::optional<ErrorReader> error_reader_;
     std::shared_ptr<const SphereTree> tree_;
     std::optional<vulkan::Buffer> tree_buffer_;

@@ -163,7 +163,7 @@ void Renderer::readback(const BufferImage &image) {
     require_settings();
     require_samples_of(image.layout.quantity);
     const KernelsKept kept(devices_);
-    devices_.front()->buffer_writer().write(
+    devices_.front()->resolve_to_buffer().write(
         query(image.layout), {.buffer = std::bit_cast<VkBuffer>(image.buffer),
                               .offset = image.offset_bytes,
                               .row_bytes = image.layout.row_bytes,

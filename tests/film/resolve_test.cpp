@@ -2,8 +2,8 @@
 #include "lib/code/shader_source.h"
 #include "lib/film/pixel_format.h"
 #include "lib/film/quotient.h"
-#include "lib/kernel/buffer_writer.h"
-#include "lib/kernel/image_reader.h"
+#include "lib/kernel/resolve_to_buffer.h"
+#include "lib/kernel/resolve_to_host.h"
 #include "tests/film/exact_quotient.h"
 #include "tests/film/film_words.h"
 #include "tests/film/random_sums.h"
@@ -62,7 +62,7 @@ protected:
 
     std::vector<std::byte> read(pt::DeviceFilm &film, const pt::ImageQuery &query) {
         std::vector<std::byte> bytes;
-        pt::ImageReader(device(), pipelines(), film).read(query, [&](std::span<const std::byte> piece) {
+        pt::ResolveToHost(device(), pipelines(), film).read(query, [&](std::span<const std::byte> piece) {
             bytes.insert(bytes.end(), piece.begin(), piece.end());
         });
         return bytes;
@@ -168,11 +168,11 @@ TEST_F(Resolve, BuffersHoldTheImageAndNothingElse) {
     fill(device(), film, film_of(pixels));
     pt::vulkan::Buffer buffer(device(), pt::vulkan::BufferUse::Storage, 200'000, "test");
     const std::vector<std::byte> guards(buffer.size(), std::byte{0xa5});
-    const auto large = pt::BufferWriter::piece_limits(device().limits());
+    const auto large = pt::ResolveToBuffer::piece_limits(device().limits());
     EXPECT_GE(large.pixels, 1U << 21);
     EXPECT_LE(large.pixels * 16, device().limits().max_storage_buffer_range);
     for (const auto &limits : {large, {500, large.bytes}, {large.pixels, 4000}, {50, 800}, {large.pixels, 16}}) {
-        pt::BufferWriter writer(device(), pipelines(), film, limits);
+        pt::ResolveToBuffer writer(device(), pipelines(), film, limits);
         for (const std::uint32_t format : {PT_FORMAT_RGB32F, PT_FORMAT_RGBA32F, PT_FORMAT_RGBA16F})
             for (const auto &[part, offset, gap] : {std::tuple(pt::Rectangle{0, 0, wide, high}, 0U, 0U),
                                                     {{0, 0, wide, high}, 4U, 12U},
@@ -207,7 +207,7 @@ TEST_F(Resolve, SamplesLostOnTheWayToABufferAreAnError) {
     const vk::raii::Semaphore semaphore = device().handle().createSemaphore({});
     const pt::ImageQuery query{{0, 0, width, height}, PT_QUANTITY_RADIANCE, 1.0, parts_of_100};
     const pt::ImageQuery of_one{{0, 0, 1, 1}, PT_QUANTITY_RADIANCE, 1.0, parts_of_100};
-    pt::BufferWriter writer(device(), pipelines(), film, pt::BufferWriter::piece_limits(device().limits()));
+    pt::ResolveToBuffer writer(device(), pipelines(), film, pt::ResolveToBuffer::piece_limits(device().limits()));
     const char *const lost = "the driver lost samples of 1 pixels";
     EXPECT_STREQ(error_of([&] { writer.write(query, {buffer.handle(), 0, width * 12, {}}); }).what(), lost);
     writer.write(of_one, {buffer.handle(), 0, width * 12, {}});

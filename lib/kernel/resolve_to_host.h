@@ -1,8 +1,8 @@
 // Reads a film as an image. resolve.comp computes the pixels, so that few bytes are transferred.
 #pragma once
 
-#include "lib/kernel/pixel_results.h"
 #include "lib/kernel/resolve.h"
+#include "lib/kernel/resolved_pixels.h"
 #include "lib/vulkan/submissions_under_way.h"
 
 #include <algorithm>
@@ -15,9 +15,9 @@
 
 namespace pt {
 
-class ImageReader {
+class ResolveToHost {
 public:
-    ImageReader(vulkan::Device &device, ResolvePipelines &pipelines, DeviceFilm &film) :
+    ResolveToHost(vulkan::Device &device, ResolvePipelines &pipelines, DeviceFilm &film) :
         device_(device),
         pipelines_(pipelines),
         film_(film) {}
@@ -31,7 +31,7 @@ public:
 
 private:
     struct Slot {
-        PixelResults results;
+        ResolvedPixels results;
         std::vector<vulkan::DescriptorSet> sets;
     };
 

@@ -1,4 +1,4 @@
-#include "lib/kernel/image_reader.h"
+#include "lib/kernel/resolve_to_host.h"
 
 #include <array>
 #include <cstring>
@@ -11,14 +11,14 @@ constexpr std::uint32_t read_pixels = 1U << 18;
 
 } // namespace
 
-ImageReader::Pieces::Pieces(const ImageQuery &query) :
+ResolveToHost::Pieces::Pieces(const ImageQuery &query) :
     total(query.pixels.pixel_count()),
     most(std::min<std::uint64_t>(std::uint64_t{std::max(read_pixels / query.pixels.width, 1U)} * query.pixels.width,
                                  total)),
     bytes_of_pixel(pixel_bytes(query.format)) {}
 
 // The host reads a piece while the device computes the next one.
-void ImageReader::read(const ImageQuery &query, const std::function<void(std::span<const std::byte>)> &receive) {
+void ResolveToHost::read(const ImageQuery &query, const std::function<void(std::span<const std::byte>)> &receive) {
     const Pieces pieces(query);
     const std::size_t slot_count = std::min<std::uint64_t>(device_.policy().queue_depth, pieces.count());
     for (std::size_t i = 0; i < slot_count; ++i)
@@ -37,7 +37,7 @@ void ImageReader::read(const ImageQuery &query, const std::function<void(std::sp
         start(piece);
     for (std::uint64_t piece = 0; piece < pieces.count(); ++piece) {
         under_way.finish_first();
-        const PixelResults &results = slots_[piece % slot_count].results;
+        const ResolvedPixels &results = slots_[piece % slot_count].results;
         require_no_loss(results.lost_pixels());
         receive(results.bytes().first(pieces.pixels_of(piece) * pieces.bytes_of_pixel));
         if (piece + slot_count < pieces.count())
@@ -45,7 +45,7 @@ void ImageReader::read(const ImageQuery &query, const std::function<void(std::sp
     }
 }
 
-std::span<std::byte> ImageReader::map(const ImageQuery &query) {
+std::span<std::byte> ResolveToHost::map(const ImageQuery &query) {
     const Pieces pieces(query);
     const std::uint64_t image_bytes = pieces.total * pieces.bytes_of_pixel;
     const Slot &slot = this->slot(0, pieces.most * pieces.bytes_of_pixel, query.format);
@@ -59,7 +59,7 @@ std::span<std::byte> ImageReader::map(const ImageQuery &query) {
         for (std::uint64_t piece = 0; piece < pieces.count(); ++piece) {
             record(commands, slot, query, pieces, piece);
             mapped_->copy(commands, slot.results.found(),
-                          vk::BufferCopy{.srcOffset = PixelResults::findings_bytes,
+                          vk::BufferCopy{.srcOffset = ResolvedPixels::findings_bytes,
                                          .dstOffset = piece * pieces.most * pieces.bytes_of_pixel,
                                          .size = pieces.pixels_of(piece) * pieces.bytes_of_pixel});
         }
@@ -72,7 +72,7 @@ std::span<std::byte> ImageReader::map(const ImageQuery &query) {
     return memory.first(image_bytes);
 }
 
-ImageReader::Slot &ImageReader::slot(std::size_t index, std::uint64_t bytes, std::uint32_t format) {
+ResolveToHost::Slot &ResolveToHost::slot(std::size_t index, std::uint64_t bytes, std::uint32_t format) {
     if (index < slots_.size() && slots_[index].results.room() >= bytes)
         return slots_[index];
     Slot made{{device_, bytes, "image"}, {}};
@@ -86,8 +86,8 @@ ImageReader::Slot &ImageReader::slot(std::size_t index, std::uint64_t bytes, std
     return slots_[index];
 }
 
-void ImageReader::record(const vk::raii::CommandBuffer &commands, const Slot &slot, const ImageQuery &query,
-                         const Pieces &pieces, std::uint64_t piece) const {
+void ResolveToHost::record(const vk::raii::CommandBuffer &commands, const Slot &slot, const ImageQuery &query,
+                           const Pieces &pieces, std::uint64_t piece) const {
     const auto [x, y, width, height] = query.pixels;
     const auto first_row = static_cast<std::uint32_t>(piece * pieces.most / width);
     const auto rows = static_cast<std::uint32_t>(pieces.pixels_of(piece) / width);

@@ -1,4 +1,4 @@
-#include "lib/kernel/buffer_writer.h"
+#include "lib/kernel/resolve_to_buffer.h"
 
 #include <algorithm>
 #include <array>
@@ -12,21 +12,21 @@ constexpr std::uint64_t most_pixel_bytes = pixel_bytes(PT_FORMAT_RGBA32F);
 
 } // namespace
 
-BufferWriter::PieceLimits BufferWriter::piece_limits(const vulkan::Limits &limits) {
+ResolveToBuffer::PieceLimits ResolveToBuffer::piece_limits(const vulkan::Limits &limits) {
     const std::uint64_t bytes = limits.max_storage_buffer_range - limits.storage_buffer_alignment;
     const std::uint64_t dispatched = std::uint64_t{limits.max_workgroup_count} * gpu::WORKGROUP_SIZE;
     return {std::min({dispatched, bytes / most_pixel_bytes, std::uint64_t{UINT32_MAX}}), bytes};
 }
 
-BufferWriter::BufferWriter(vulkan::Device &device, ResolvePipelines &pipelines, DeviceFilm &film,
-                           const PieceLimits &limits) :
+ResolveToBuffer::ResolveToBuffer(vulkan::Device &device, ResolvePipelines &pipelines, DeviceFilm &film,
+                                 const PieceLimits &limits) :
     device_(device),
     pipelines_(pipelines),
     film_(film),
     limits_(limits),
     results_(device, 0, "findings") {}
 
-BufferWriter::~BufferWriter() {
+ResolveToBuffer::~ResolveToBuffer() {
     try {
         if (under_way_ && !device_.hangs())
             device_.finish(*under_way_);
@@ -34,7 +34,7 @@ BufferWriter::~BufferWriter() {
     }
 }
 
-void BufferWriter::write(const ImageQuery &query, const BufferTarget &target) {
+void ResolveToBuffer::write(const ImageQuery &query, const BufferTarget &target) {
     finish();
     const vulkan::ComputePipeline &pipeline = pipelines_.of(query.format);
     const std::vector<Piece> pieces = this->pieces(query, target);
@@ -57,7 +57,7 @@ void BufferWriter::write(const ImageQuery &query, const BufferTarget &target) {
         finish();
 }
 
-std::vector<BufferWriter::Piece> BufferWriter::pieces(const ImageQuery &query, const BufferTarget &target) const {
+std::vector<ResolveToBuffer::Piece> ResolveToBuffer::pieces(const ImageQuery &query, const BufferTarget &target) const {
     const Rectangle &all = query.pixels;
     const auto width = static_cast<std::uint32_t>(std::min<std::uint64_t>(all.width, limits_.pixels));
     const std::uint64_t rows_that_fit = std::min(limits_.pixels / width, limits_.bytes / target.row_bytes);
@@ -71,8 +71,8 @@ std::vector<BufferWriter::Piece> BufferWriter::pieces(const ImageQuery &query, c
     return pieces;
 }
 
-BufferWriter::Piece BufferWriter::piece(const Rectangle &pixels, const ImageQuery &query,
-                                        const BufferTarget &target) const {
+ResolveToBuffer::Piece ResolveToBuffer::piece(const Rectangle &pixels, const ImageQuery &query,
+                                              const BufferTarget &target) const {
     const std::uint64_t bytes_of_pixel = pixel_bytes(query.format);
     const std::uint64_t begin =
         target.offset + (pixels.y - query.pixels.y) * target.row_bytes + (pixels.x - query.pixels.x) * bytes_of_pixel;
@@ -84,7 +84,7 @@ BufferWriter::Piece BufferWriter::piece(const Rectangle &pixels, const ImageQuer
             {target.buffer, bound, end - bound}};
 }
 
-void BufferWriter::finish() {
+void ResolveToBuffer::finish() {
     if (!under_way_)
         return;
     const vulkan::Device::Ticket ticket = *under_way_;

@@ -13,12 +13,12 @@
 
 namespace pt {
 
-class PixelResults {
+class ResolvedPixels {
 public:
     // A multiple of the alignment of all devices.
     static constexpr std::uint64_t findings_bytes = 256;
 
-    PixelResults(vulkan::Device &device, std::uint64_t bytes, const std::string &what) :
+    ResolvedPixels(vulkan::Device &device, std::uint64_t bytes, const std::string &what) :
         found_(device, vulkan::BufferUse::Storage, findings_bytes + bytes, what),
         host_(device, vulkan::BufferUse::HostRead, findings_bytes + bytes, what) {}
 

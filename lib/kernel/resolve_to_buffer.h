@@ -1,7 +1,7 @@
 #pragma once
 
-#include "lib/kernel/pixel_results.h"
 #include "lib/kernel/resolve.h"
+#include "lib/kernel/resolved_pixels.h"
 #include "lib/vulkan/buffer.h"
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct BufferTarget {
     vulkan::Semaphores semaphores;
 };
 
-class BufferWriter {
+class ResolveToBuffer {
 public:
     struct PieceLimits {
         std::uint64_t pixels;
@@ -26,10 +26,10 @@ public:
     };
     static PieceLimits piece_limits(const vulkan::Limits &limits);
 
-    BufferWriter(vulkan::Device &device, ResolvePipelines &pipelines, DeviceFilm &film, const PieceLimits &limits);
-    ~BufferWriter();
-    BufferWriter(const BufferWriter &) = delete;
-    BufferWriter &operator=(const BufferWriter &) = delete;
+    ResolveToBuffer(vulkan::Device &device, ResolvePipelines &pipelines, DeviceFilm &film, const PieceLimits &limits);
+    ~ResolveToBuffer();
+    ResolveToBuffer(const ResolveToBuffer &) = delete;
+    ResolveToBuffer &operator=(const ResolveToBuffer &) = delete;
 
     // Waits for the device or, if there is a semaphore to signal, leaves the wait to the next call. Throws
     // PT_ERROR_INTERNAL if a driver lost work. If the previous call lost work, nothing is written.
@@ -49,7 +49,7 @@ private:
     ResolvePipelines &pipelines_;
     DeviceFilm &film_;
     PieceLimits limits_;
-    PixelResults results_;
+    ResolvedPixels results_;
     std::vector<vulkan::DescriptorSet> sets_;
     std::optional<vulkan::Device::Ticket> under_way_;
 };
