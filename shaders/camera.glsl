@@ -40,4 +40,14 @@ CameraRay ray_through(CameraView camera, uvec2 pixel, vec3 numbers)
     return CameraRay(camera_origin(camera, from_middle), camera_direction(camera, from_middle), numbers.z);
 }
 
+// All rays of an image place intersect in the plane of focus (shaders/README.md, section 2). disc is a point of the
+// unit disc, right and down.
+CameraRay ray_through_lens(CameraView camera, uvec2 pixel, vec3 numbers, vec2 disc)
+{
+    vec2 from_middle = image_place(camera, pixel, numbers.xy);
+    vec2 start = camera.start_scale * from_middle + camera.lens_radius * disc;
+    vec3 origin = start.x * camera.right - start.y * camera.up;
+    return CameraRay(origin, camera_direction(camera, from_middle - camera.lens_blur * disc), numbers.z);
+}
+
 #endif

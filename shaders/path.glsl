@@ -6,6 +6,7 @@
 #include "intersect.glsl"
 #include "lights.glsl"
 #include "phong.glsl"
+#include "sampling.glsl"
 #include "spots.glsl"
 #include "step.glsl"
 #include "trace.glsl"
@@ -110,8 +111,14 @@ vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
     return radiance;
 }
 
-#include "camera_ray.glsl"
 #include "camera_walk.glsl"
+
+CameraRay camera_ray(CameraView camera, uvec2 pixel, SampleKey key)
+{
+    if (LENS == 1)
+        return ray_through_lens(camera, pixel, camera_numbers(key), concentric_disc(sample_block(key, 1u).xy));
+    return ray_through(camera, pixel, camera_numbers(key));
+}
 
 uint covered_samples = 0u; // with COVERAGE: samples whose camera rays have hit a surface
 

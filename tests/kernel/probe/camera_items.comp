@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-#include "camera_ray.glsl"
+#include "camera.glsl"
 
 #include "items.glsl"
 
