@@ -1,4 +1,3 @@
-// Evaluates elementary functions for pt_get_accuracy.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 

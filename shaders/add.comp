@@ -1,4 +1,3 @@
-// Adds another film's sums.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require

@@ -28,7 +28,8 @@ using std::sqrt;
 
 inline constexpr float infinity = std::numeric_limits<float>::infinity();
 
-// Arguments are passed by value, so that compilers vectorise loops. If one is NaN, the result is a, as with std::min.
+// Arguments are passed by value, so that compilers vectorise loops. If an argument is NaN, returns `a`, as std::min
+// does.
 template <typename Type>
 constexpr Type less_of(Type a, Type b) {
     return b < a ? b : a;

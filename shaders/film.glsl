@@ -95,8 +95,8 @@ uint film_store_sum(uint first, uint stride, uvec4 sum, bool is_first)
 // Planes that rarely change: highest words of the sums, and the number of rejected samples.
 uint rare_plane(uint i) { return i < 3u ? (i + 1u) * FILM_SUM_WORDS - 1u : FILM_REJECTED; }
 
-// pixel is the index of the pixel's first word in a part. The loop usually takes one trip; lavapipe 22.3 would always
-// execute the bodies of four ifs.
+// pixel is the index of the pixel's first word in a part. The loop usually has one iteration; lavapipe 22.3 would
+// always execute the bodies of four ifs.
 void film_add_rare_words(uint pixel, uint stride, uvec4 addends)
 {
     uint i = addends.x != 0u ? 0u : addends.y != 0u ? 1u : addends.z != 0u ? 2u : 3u;
@@ -108,8 +108,8 @@ void film_add_rare_words(uint pixel, uint stride, uvec4 addends)
     } while (i < 4u);
 }
 
-// For pixels to which several invocations add. The words are added atomically and in any order, so exactly one
-// invocation sees each overflow.
+// For pixels to which several invocations add. Words are added atomically, so exactly one invocation sees each
+// overflow.
 void film_store_shared_sum(uint first, uint stride, uvec4 sum)
 {
     uint carry = 0u;

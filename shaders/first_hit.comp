@@ -1,6 +1,6 @@
 // First hits of camera rays. Depth and object have no meaningful mean, so they come from the ray through the pixel's
-// center at half the shutter's time. Normal and albedo are means over pixel and shutter, because denoisers need edges
-// as smooth as the image's.
+// center at the middle of the exposure. Normal and albedo are means over pixel and shutter, because denoisers need
+// edges as smooth as the image's.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
@@ -17,7 +17,8 @@ const uint FLOAT_INFINITY_BITS = 0x7f800000u;
 
 shared vec3 values[WORKGROUP_SIZE];
 
-// Returns place in the pixel and time, from the rank-1 lattice (Korobov 1959) with the largest distance between points.
+// Returns the place in the pixel (x, y) and the time (z), from the rank-1 lattice (Korobov 1959) with the largest
+// distance between points.
 vec3 lattice_point(uint ray)
 {
     uvec3 point = uvec3(ray, 3u * ray, 5u * ray) % FILTER_RAYS;

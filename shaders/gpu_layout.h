@@ -40,7 +40,7 @@ PT_CONSTANT KIND_CAPSULE = 2;
 // Blocks of each vertex that a branch leaves:
 //   point on a lamp (2) and choice of the lamp (1, if there are several), unless every lamp has been sampled
 //   direction (2), specular or diffuse lobe (1, with GLOSS), survival of Russian roulette (1, for long paths)
-PT_CONSTANT EVERY_LAMP_LIMIT = 4;    // most lamps of which the first vertex samples every one
+PT_CONSTANT EVERY_LAMP_LIMIT = 4;    // largest number of lamps that the first vertex samples all
 PT_CONSTANT SPOT_LIMIT = 8;
 PT_CONSTANT ROULETTE_MIN_LENGTH = 8; // minimum MAX_PATH_LENGTH with Russian roulette
 

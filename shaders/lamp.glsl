@@ -55,7 +55,7 @@ struct LampSample {
     float density; // density over solid angle for this lamp; 0: cannot be sampled
 };
 
-// Takes a direction uniform in the lamp's cone, with h = 1 - cos of the angle to its axis. The distance is computed
+// Samples a direction uniformly in the lamp's cone, with h = 1 - cos of the angle to its axis. The distance is computed
 // from h, because an intersection test would miss tiny far lamps by rounding.
 LampSample sample_lamp(LampChoice choice, vec2 u)
 {

@@ -1,4 +1,3 @@
-// The tree of lamps, which lib/view/lamp_tree.cpp builds.
 #ifndef LAMP_TREE_GLSL
 #define LAMP_TREE_GLSL
 
@@ -106,9 +105,10 @@ LampWalk walk_to(uint lamp)
 
 LampWalk walk_by(uint number) { return LampWalk(true, 0u, float(number >> 8u) * NUMBER_STEP, number, 1.0); }
 
-// Takes one of four children in proportion to `importance` or, if all are 0, to `others`. This is the last child of
-// positive importance for which the sum over earlier children is at most the random number. So rounding never chooses a
-// child of importance 0. A choice with probability p removes log2(1 / p) random bits from walk.u. A hash replaces them.
+// Takes one of four children with a probability proportional to `importance` or, if that is 0 for all, to `others`.
+// Takes the last child of positive importance for which the sum over earlier children is at most the random number. So
+// rounding never chooses a child of importance 0. A choice with probability p removes log2(1 / p) random bits from
+// walk.u. A hash replaces them.
 uint take_child(inout LampWalk walk, vec4 importance, vec4 others, uint given)
 {
     vec4 part = sum_of(importance) > 0.0 ? importance : others;

@@ -100,7 +100,7 @@ LampChoice choose_by_tree(Lamps lamps, uint number)
     return LampChoice(lamp, view_lamp(lamps.vertex, lamp, lamps.time), lamp_probability_by_tree(walk));
 }
 
-// Numbers below UNIFORM_SHARE choose uniformly among the lamps of positive weight, other numbers by weight. Weights are
+// Numbers below UNIFORM_SHARE choose a lamp of positive weight uniformly. Other numbers choose by weight. Weights are
 // summed in the same order as for the total, so that rounding does not suppress small probabilities.
 LampChoice choose(Lamps lamps, uint number)
 {

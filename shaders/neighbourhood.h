@@ -39,7 +39,6 @@ PT_FUNCTION float median_of_rows(Sorted a, Sorted b, Sorted c)
         .middle;
 }
 
-// Moves a missing value from the low end to the high end.
 PT_FUNCTION Sorted with_missing_above(Sorted row)
 {
     row.low = row.middle;
@@ -49,13 +48,13 @@ PT_FUNCTION Sorted with_missing_above(Sorted row)
 }
 
 struct Neighbourhood {
-    float median; // lower middle value if their number is even; 0 for a lone pixel
+    float median; // of an even number of values, the lower middle one; 0 for a pixel without neighbors
     float largest;
 };
 
 // Rows are sorted, with missing values first. The median of k present values is the fifth of nine values if 4 - (k - 1)
-// / 2 missing ones count as lowest and the rest as highest. At an edge these are two of three, at a corner three of
-// five.
+// / 2 missing ones count as lowest and the rest as highest. At an edge two of three missing values count as lowest, at
+// a corner three of five.
 PT_FUNCTION Neighbourhood neighbourhood(Sorted above, Sorted row, Sorted below, bool is_first_row, bool is_last_row,
                                         bool is_beside_edge)
 {

@@ -12,8 +12,8 @@
 #include "trace.glsl"
 #include "vertex.glsl"
 
-// Light that arrives from a second vertex in the direction of a spot. The light is weighted against the branches,
-// which also find it (Veach 1997, chapter 9). Light over more vertices is left to the branches.
+// Light that arrives from a second vertex in the direction of a spot. The light is weighted against the branches, which
+// also find it (Veach 1997, chapter 9). Only the branches find light over more vertices.
 vec3 light_by_way_of_spot(Vertex vertex, Material material, Spots spots, SampleKey key, float time)
 {
     vec3 numbers = spot_numbers(key);

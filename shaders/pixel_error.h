@@ -66,8 +66,8 @@ PT_FUNCTION real around(real mean, ValueSet tile, real median_beside, real large
 
 // The estimated limit of a pixel. Relative squared errors are divided by its square (shaders/README.md, section 11).
 //
-// At an edge the surroundings are bright, but at least half of the samples are dark. Let samples have the value M with
-// probability p, otherwise 0, and let exactly one of N samples have had the value M. Then the mean is T = M / N, the
+// At an edge the surroundings are bright, but at least half of the samples are dark. Let a sample have the value M with
+// probability p, otherwise 0, and let exactly one of N samples have the value M. Then the mean is T = M / N, the
 // squared error about T^2, and the limit M p. If p is uniformly distributed a priori, y = N p has the density y e^-y.
 // The expectation of T^2 / (M^2 p^2 + k^2), with k^2 = known, is the integral of y e^-y / (y^2 + k^2 / T^2). This is
 // ln(T / k) minus about 1. The 1 depends on the prior and is left out; the result then fits the calibration scenes.
@@ -109,8 +109,8 @@ PT_FUNCTION real square_as_lamp(real standard_error, real mean, real offset_squa
 }
 
 // A pixel that stands out shows a lamp or highlight, or one rare bright sample. lib/film/error_estimate.cpp compares
-// two numbers of such pixels: samples of only one part hit the light ("met once"), or samples of both parts did ("met
-// again").
+// how many of these pixels were met once (only one part has samples that hit the light) and how many were met again
+// (both parts have).
 PT_FUNCTION bool is_met_once(real standard_error, real mean, real lesser)
 {
     return lesser <= 0.02 * mean && standard_error >= OF_HALVES * (mean - lesser);

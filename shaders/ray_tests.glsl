@@ -7,7 +7,7 @@
 #include "tree.glsl"
 
 // With KNOWN_SIDES paths stay on the camera's side of each surface. Otherwise rounding may put a vertex on the wrong
-// side of a close surface, where the path ends or passes through the surface.
+// side of a close surface. The path then ends or passes through the surface.
 
 struct Start {
     vec3 origin;
@@ -114,7 +114,7 @@ void shade_plane(inout bool blocked, Start start, ShadowRay shadow, uint plane, 
 }
 
 // If a lamp nearly coincides with another sphere, the shadow ray to it ends where an intersection test finds the lamp.
-// The distances to both spheres then come from one formula, so the spheres have one order, and light that both emit
+// One formula then gives the distances to both spheres, so their order is always the same, and light that both emit
 // counts once. If the test misses the lamp by rounding, the ray ends at the sampled point.
 ShadowRay ended_as_met(ShadowRay shadow, Start start, float time)
 {

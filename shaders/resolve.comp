@@ -1,4 +1,3 @@
-// Turns sums into an image. Each invocation has one pixel of a rectangle.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 

@@ -7,8 +7,8 @@
 #include "scene.glsl"
 #include "trace.glsl"
 
-// The sequence's points in units of 2^-32. Each sample has a row of blocks. The buffer is uniform, because all
-// invocations read the same block at a time.
+// The sequence's points in units of 2^-32. Each sample has a row of blocks. All invocations read the same block at a
+// time, so the buffer is uniform.
 layout(set = 0, binding = BINDING_POINTS) uniform Points { uvec4 blocks[POINT_BLOCKS]; } points;
 
 struct SampleKey {

@@ -64,7 +64,7 @@ vec4 scene_word_among(uint first, uint count, uint index)
     return word;
 }
 
-// Whether surfaces of one material share its words, which is slower in small scenes.
+// Whether surfaces of one material share its words. This is slower in small scenes.
 const bool HAS_TABLE = SCENE_SOURCE == SCENE_IN_STORAGE;
 
 const uint EMISSION = SURFACE_COUNT;

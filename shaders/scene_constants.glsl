@@ -4,7 +4,6 @@
 
 #include "specialization.h"
 
-// Specialization constants are scalars, each with a name and number.
 #define SCENE_FLOAT(word, component, name)                                                                             \
     layout(constant_id = CONSTANT_COUNT + 4u * uint(word) + component) const float scene_##word##name = 0.0;
 #define SCENE_WORD(word)                                                                                               \

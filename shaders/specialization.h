@@ -42,10 +42,10 @@ PT_SPECIALIZED(TREE_COLORS, 24, 0)     // 1: tree spheres have colors of their o
 PT_SPECIALIZED(TREE_LEVELS, 35, 0)     // most nodes from the root to a sphere
 PT_SPECIALIZED(TREE_INSIDE, 34, 1)     // 1: paths may be inside a sphere of the tree
 PT_SPECIALIZED(POINT_BLOCKS, 12, 1024)
-PT_SPECIALIZED(WALK_TRIPS, 27, 0)      // most trips of a step (tree_path.glsl); 0: each walk runs to its end
+PT_SPECIALIZED(WALK_TRIPS, 27, 0)      // most iterations of a step (tree_path.glsl); 0: each walk runs to its end
 PT_SPECIALIZED(SPOT_COUNT, 28, 0)
-// Surfaces hidden from the camera: the last lamps outside the tree, the first skies, the last other spheres, the first
-// planes.
+// Numbers of surfaces hidden from the camera. They are last among the lamps outside the tree and the other spheres, and
+// first among the skies and the planes.
 PT_SPECIALIZED(HIDDEN_LAMPS, 30, 0)
 PT_SPECIALIZED(HIDDEN_SKIES, 31, 0)
 PT_SPECIALIZED(HIDDEN_OTHERS, 32, 0)
@@ -55,7 +55,7 @@ PT_SPECIALIZED(KINDS, 40, 1)         // kinds of the spheres outside the tree
 PT_SPECIALIZED(TREE_KINDS, 41, 1)    // kinds of the spheres in the tree
 PT_SPECIALIZED(TREE_OPACITY, 19, 0)  // 1: rays pass through tree spheres at random
 PT_SPECIALIZED(COVERAGE, 42, 0)      // 1: camera rays that hit a surface are counted
-PT_SPECIALIZED(UNROLLED, 36, 112)    // most trips of unrolled loops
+PT_SPECIALIZED(UNROLLED, 36, 112)    // most iterations of unrolled loops
 PT_SPECIALIZED(INTEGER_ORDER, 37, 0) // 1: comparisons of integers are faster
 const uint CONSTANT_COUNT = 43;
 // Component i of scene word w is constant_id CONSTANT_COUNT + 4 w + i.

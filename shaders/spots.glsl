@@ -76,8 +76,8 @@ MirrorPoint mirror_point_of_plane(Vertex vertex, vec4 lamp, uint surface)
 }
 
 // Alhazen's problem: find the normal that bisects the angle between the directions to the vertex and to the lamp. The
-// iteration starts from a normal that is correct if vertex and lamp are both far from the sphere (the bisector) or both
-// near (by the ratio of heights). The iteration's error raises the variance but causes no bias.
+// first normal of the iteration is exact in two limits: vertex and lamp far from the sphere (bisector), or both close
+// to it (ratio of heights). The iteration's error raises the variance but causes no bias.
 MirrorPoint mirror_point_of_sphere(Vertex vertex, vec4 lamp, uint surface, float time)
 {
     vec4 sphere = ball_of(surface, time).centre_radius;
@@ -164,8 +164,8 @@ uint choose_spot(Spots spots, float number)
     return chosen;
 }
 
-// For an image, samples a lobe about its direction. The direction to a glow leads to a point of the plane. A ray of
-// cosine density from the lamp chooses this point.
+// For an image, samples a lobe about its direction. The direction to a glow leads to a point of the plane that a ray of
+// cosine density from the lamp hits.
 vec3 direction_to_spot(Spots spots, uint spot, vec3 position, float time, vec2 place)
 {
     SpotWord word = spot_word(spot);

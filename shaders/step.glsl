@@ -1,4 +1,3 @@
-// A path's step from one vertex to the next, and the light that it adds.
 #ifndef STEP_GLSL
 #define STEP_GLSL
 
@@ -24,7 +23,7 @@ struct Path {
 
 // State of the current path, for scenes with spots only.
 float arrival_density; // density of the last direction times the number of directions
-float departure_share; // weight of the lamp light at the next departure, against light_by_way_of_spot()
+float departure_share; // weight of lamp light at the next departure, because light_by_way_of_spot() may find it too
 
 Path path_from(Arrival first) { return Path(first, vec3(1.0), vec3(0.0), 1u, true); }
 

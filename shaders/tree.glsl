@@ -9,7 +9,6 @@ layout(set = 0, binding = BINDING_TREE_SPHERES) uniform utextureBuffer tree_sphe
 uvec4 tree_node_word(uint index) { return texelFetch(tree_nodes, int(index)); }
 uvec4 tree_word(uint index) { return texelFetch(tree_spheres, int(index)); }
 
-// The scene buffer as integers.
 layout(set = 0, binding = BINDING_SCENE_STORAGE) readonly buffer SceneBits { uvec4 words[]; } scene_bits;
 
 ivec3 tree_camera() { return ivec3(scene_bits.words[TREE_FRAME].xyz); }
@@ -25,7 +24,7 @@ float tree_shutter_time() { return scene_storage.words[TREE_FRAME + 4u].x; }
 
 uvec4 tree_sphere_word(uint place) { return tree_word(place); }
 
-// The ball relative to the grid point `base`, moved by `rest` steps.
+// The ball relative to the point `base` + `rest` on the grid.
 Ball tree_ball_from(uvec4 word, ivec3 base, vec3 rest, uint place, float time)
 {
     vec3 centre = (vec3(ivec3(word.xyz) - base) - rest) * tree_step();

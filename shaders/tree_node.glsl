@@ -1,4 +1,3 @@
-// Tests the boxes of a tree node's children.
 #ifndef TREE_NODE_GLSL
 #define TREE_NODE_GLSL
 

@@ -1,6 +1,7 @@
 // Paths among tree spheres, in short steps. Invocations of a subgroup would wait for the longest walk. So all walks
-// take some trips of the loop. Then finished ones continue with their next ray, branch or sample (Aila and Laine,
-// "Understanding the Efficiency of Ray Traversal on GPUs", HPG 2009, section 3.3). path.glsl gives the same results.
+// take a few iterations of the loop, and finished walks then continue with the next ray, branch or sample (Aila and
+// Laine, "Understanding the Efficiency of Ray Traversal on GPUs", HPG 2009, section 3.3). path.glsl gives the same
+// results.
 #ifndef TREE_PATH_GLSL
 #define TREE_PATH_GLSL
 
@@ -16,7 +17,7 @@ struct TreeSample {
     Path path;
 };
 
-// Departures beyond the branches come first. These departures have only a shadow ray to their lamp.
+// Departures that belong to no branch come first. They have only a shadow ray to their lamp.
 const uint FIRST_DEPARTURES = SAMPLE_EVERY_LAMP && LAMP_COUNT > BRANCH_COUNT ? LAMP_COUNT : BRANCH_COUNT;
 const uint FIRST_BRANCH = FIRST_DEPARTURES > BRANCH_COUNT ? BRANCH_COUNT : 0u;
 

@@ -13,8 +13,7 @@ const float ADVANCE_ROUNDED = 0.99999976; // 1 - 2^-22
 // The word of surfaces outside the tree, which sorts before every tree sphere.
 const uvec4 NO_SPHERE_WORD = uvec4(0u, 0u, 0u, ~0u);
 
-// Order at equal distances (shaders/README.md, section 3). Slots are compared only if the spheres differ in nothing but
-// motion.
+// Order at equal distances (shaders/README.md, section 3). Slots decide between spheres that differ only in motion.
 bool goes_before(uvec4 word, uint surface, uvec4 other_word, uint other_surface)
 {
     return word.x != other_word.x   ? word.x < other_word.x

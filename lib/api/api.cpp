@@ -336,7 +336,7 @@ pt_result pt_get_stats(pt_context *context, pt_stats *stats) {
 
 pt_result pt_get_warning(pt_context *context, pt_broken_rule *warning) {
     return pt::guard_context(context, [&](pt::Renderer &renderer) {
-        pt::struct_size_of(warning, "warning"); // refuses a wrong struct before the work
+        pt::struct_size_of(warning, "warning");
         const pt::BrokenRule *rule = renderer.warning();
         pt::copy_out(rule ? pt::shown(*rule) : pt_broken_rule{}, warning, "warning");
     });

@@ -77,7 +77,8 @@ inline const char *share_rule(double value) {
     return is_share(value) ? nullptr : "must lie in [0, 1]";
 }
 
-// The field that has the value. A product has its first field and the rest of the text: {"width", "* height"}.
+// The field that has the value. A product has two parts: its first field and the rest of the text, {"width", "*
+// height"}.
 struct Member {
     Member(const char *field, const char *others = "") : name(field), with(others) {}
 

@@ -22,8 +22,8 @@ namespace pt {
 
 namespace {
 
-// Searches beside the library, so that an installed tree can be moved, then in the system's path. The module stays
-// loaded, because glslang keeps tables.
+// Searches beside the library first, so that an installation can be moved. Then searches the system's path. The module
+// stays loaded, because glslang keeps tables.
 pt_compile_glsl_fn load_compiler(const std::string &shader_directory) {
     const std::filesystem::path folder = platform::folder_with(reinterpret_cast<const void *>(&load_compiler));
     const std::filesystem::path name = platform::module_file("pt-glsl");

@@ -54,7 +54,7 @@ struct Blocks {
     std::size_t count;
 };
 
-// Sorts changes by size. Returns the largest number of first changes that together do not raise the error (doubts.h).
+// Sorts changes by size. Returns the length of the longest prefix whose changes together do not raise the error.
 std::ptrdiff_t harmless_count(std::vector<Change> &changes, Measure measure) {
     constexpr double standard_errors = 2.0;
     std::ranges::stable_sort(changes, {}, [=](const Change &change) { return std::abs(change.*measure); });

@@ -1,4 +1,3 @@
-// Undoes the denoising of pixels where it might raise the error.
 #pragma once
 
 #include "lib/denoise/halves.h"
@@ -9,8 +8,8 @@ namespace pt {
 // (shaders/README.md, section 11).
 //
 // Blocks overlap by half. Each block multiplies a pixel's moves by its window function, or by 0 to undo them, and the
-// results are added. The windows of a pixel sum to 1, so there are no seams. Squared errors are convex in the moves, so
-// the expected change of the whole image is not positive either.
+// results are added. The windows of a pixel sum to 1, so there are no seams. In each block the expected change of the
+// squared error is at most 0. Squared errors are convex in the moves, so this also holds for the whole image.
 void take_back_doubtful_moves(Halves &halves);
 
 } // namespace pt

@@ -13,8 +13,8 @@ float mean_at(const Halves &halves, std::size_t index) {
 
 // Returns the weight of a squared error in the relative error. The square of the true value is estimated by D(A) D(B),
 // because the square of S would include noise. If a filter spreads a lamp over dark pixels, this estimate is too large
-// and would hide the error. So the estimate is at most the square of the raw pixel or of four times the median of 3x3
-// pixels. pixel_error.h explains the logarithm at edges.
+// and would hide the error. So the estimate is at most the square of the raw pixel or, if larger, of four times the
+// median of 3x3 pixels. pixel_error.h explains the logarithm at edges.
 double relative_weight(const Halves &halves, std::size_t x, std::size_t y, std::size_t channel) {
     constexpr double most_above_median = 4.0;
     const std::size_t index = halves.index(x, y, channel);

@@ -29,8 +29,7 @@ struct Terms {
 
 Terms terms_at(const Halves &halves, std::size_t x, std::size_t y, std::size_t channel);
 
-// Returns the faults of a tile (combination.h). The factor 3 is calibrated. The factor allows for the noise of D(B),
-// which replaces r.
+// Returns the faults of a tile (combination.h). The calibrated factor 3 allows for the noise of D(B), which replaces r.
 inline double faults(double free_products, double limit_products, double least) {
     const double of_filter = std::max(free_products, 0.0);
     const double of_limits = std::max(limit_products, 0.0);

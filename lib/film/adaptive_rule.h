@@ -56,8 +56,8 @@ struct MostSamples {
     std::uint64_t limit; // limit over all calls
 };
 
-// While tiles have equal samples, the error is checked at fixed counts. Later, whether a tile needs samples depends
-// only on its own sums and the round. So interruptions do not change the film.
+// While tiles have equal samples, the error is checked at fixed counts. Later, only a tile's own sums and the round
+// decide whether it needs samples. So interruptions do not change the film.
 class AdaptivePlan {
 public:
     AdaptivePlan(double target_error, const MostSamples &counts, FilmLooks film) :

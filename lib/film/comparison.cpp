@@ -136,8 +136,7 @@ double sample_ratio(const pt_compare_info &info) {
     return first > 0.0 && second > 0.0 ? std::max(first / second, second / first) : 1.0;
 }
 
-// The largest differences of single pixels. A rare bright sample makes such a difference, and a region may lack it by
-// chance.
+// The largest differences of single pixels. They may come from rare bright samples, which a region may lack by chance.
 struct Events {
     double absolute = 0.0; // largest difference of pixels that differ by more than their darker value
     double relative = 0.0; // largest difference of other pixels, as a fraction of the darker value

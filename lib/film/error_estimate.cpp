@@ -46,15 +46,16 @@ void add_squares(ErrorSquares &to, const ErrorSquares &other, double factor = 1.
 
 // Returns the factor for squared relative errors in pixels where only one half of the samples has hit a light. Let w be
 // the expected number of hits in a pixel, and q = e^(-w / 2). Neither half hits the light in a fraction q^2 of the
-// pixels, exactly one half in 2 q (1 - q), and both halves in (1 - q)^2. If both are b times as frequent as exactly
-// one, w = 2 ln(1 + 2 b). A pixel with mean T that one half hit has the expected value w T. So its error relative to
-// this value is 1 / w times its error relative to T.
+// pixels, exactly one half in 2 q (1 - q), and both halves in (1 - q)^2. If hits by both halves are b times as frequent
+// as hits by exactly one, w = 2 ln(1 + 2 b). If only one half hits the light in a pixel of mean T, the pixel's expected
+// value is w T. So its error relative to this value is 1 / w times its error relative to T.
 double square_by_hits(double met_once, double met_again) {
     const double hits = 2.0 * std::log1p(2.0 * met_again / (met_once + 1.0));
     return std::max(1.0, 1.0 / squared(hits));
 }
 
-// Light that one half hit has two estimates: met_once, and as_lamps times square_by_hits(). The smaller one counts.
+// If only one half of the samples has hit a light, its squared error has two estimates: met_once, and as_lamps times
+// square_by_hits(). The smaller one counts.
 ErrorSquares relative_squares(const TileErrors &all, double met_again) {
     const double factor = square_by_hits(all.as_lamps.sum / channels, met_again);
     ErrorSquares squares = all.relative_square;
@@ -74,8 +75,8 @@ double share_added(double pixel_count) {
 }
 
 // The logarithm of the root of a sum of m squared normal variables has the standard deviation 1 / sqrt(2 m). Since E
-// x^4 = 3, they count as n = m / 3 pixels in pixel_count(). The true error varies as much as its estimate, so the ratio
-// of both has the standard deviation 1 / sqrt(3 n).
+// x^4 = 3, the variables count as n = m / 3 pixels in pixel_count(). The true error varies as much as its estimate, so
+// the ratio of both has the standard deviation 1 / sqrt(3 n).
 double spread_of_pixels(double pixel_count) {
     return std::exp(normal_95 / std::sqrt(3.0 * pixel_count));
 }

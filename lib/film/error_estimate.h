@@ -1,4 +1,3 @@
-// Estimates the error of an image from the difference between the film's two parts.
 #pragma once
 
 #include "lib/film/tile_errors.h"

@@ -25,7 +25,7 @@ std::uint16_t half_bits(float value) {
     constexpr std::uint32_t difference_of_biases = 0x38000000;
     constexpr std::uint32_t half_infinity = 0x7c00;
     const auto float_bits = std::bit_cast<std::uint32_t>(value);
-    // Results below 2^-14 are multiples of 2^-24.
+
     const bool normal = float_bits >= smallest_normal;
     const std::uint32_t number = normal ? float_bits - difference_of_biases : (float_bits & 0x7fffff) | 0x800000;
     const std::uint32_t dropped = normal ? 13 : std::min(126 - (float_bits >> 23), 25U);
@@ -33,7 +33,7 @@ std::uint16_t half_bits(float value) {
     const std::uint32_t rest = number & ((1U << dropped) - 1);
     const std::uint32_t half_of_last = 1U << (dropped - 1);
     const bool up = rest > half_of_last || (rest == half_of_last && kept % 2 == 1);
-    // A carry increases the exponent. Beyond the largest number the carry gives infinity.
+
     return static_cast<std::uint16_t>(std::min(kept + (up ? 1U : 0U), half_infinity));
 }
 

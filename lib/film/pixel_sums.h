@@ -69,7 +69,8 @@ public:
     // Adds the other part to this part and clears the other part.
     void fold_into(std::uint32_t part, std::size_t first, std::size_t count) noexcept;
 
-    // `split` divides a larger set. Moves all sums into one part if `samples` alone would be divided at another index.
+    // `split` is the index that divides a set including `samples`. Moves all sums into one part if `samples` alone
+    // would be divided at another index.
     void split_for(const SampleSet &samples, std::uint64_t split, std::size_t first, std::size_t count) noexcept;
 
     // Copies the planes that both objects have.

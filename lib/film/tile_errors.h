@@ -54,7 +54,7 @@ struct ErrorSquares {
 
 struct TileErrors {
     double value_count = 0.0;
-    double squares_of_tile_sizes = 0.0; // sum of squares of tiles' numbers of values
+    double squares_of_tile_sizes = 0.0; // sum over tiles of (number of values)^2
     ErrorSquares square;
     ErrorSquares relative_square;
     ErrorSquares met_once;

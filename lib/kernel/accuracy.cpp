@@ -55,7 +55,8 @@ constexpr ElementaryFunction functions[] = {
     // Vulkan allows 3 + 2 |x| ulp.
     {"2^x (exp2_negative)", [](double x) { return std::exp2(x); }, 203.0, -0x1p-100F, -100.0F, exponents},
     // Errors of e = r (0.69 + w): 0.9 from the sum, 0.1 from the rounded constant, 0.4 from w, 0.2 from the
-    // approximation. For k = 0 the result is -e. For k = -1 the error is at most 1.6 ulp, at r = 1/2.
+    // approximation. With x = k + r (one_minus_exp2() in maths.glsl), the result for k = 0 is -e. For k = -1 the error
+    // is at most 1.6 ulp, at r = 1/2.
     {"1 - 2^x (one_minus_exp2)", [](double x) { return -std::expm1(x * std::numbers::ln2); }, 2.5, -0x1p-100F, -100.0F,
      exponents},
     // Vulkan allows sqrt the error of 1 / inversesqrt: 4 units from inversesqrt and 2.5 ulp from the division.

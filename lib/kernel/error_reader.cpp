@@ -24,8 +24,8 @@ struct RelativeUnits {
 
     double undone() const { return 1.0 / (static_cast<double>(scale) * static_cast<double>(scale) * factor); }
 
-    // An offset far above the film's values dominates the denominator, so a limit of the offset scales all squares
-    // equally.
+    // An offset far above the film's values dominates the denominator, so limiting the offset scales all squares by the
+    // same factor.
     explicit RelativeUnits(double unit) {
         constexpr double far_above = 1e13;
         const double exact = std::sqrt(relative_offset) / unit;

@@ -19,8 +19,9 @@ public:
     HostFold(const HostFold &) = delete;
     HostFold &operator=(const HostFold &) = delete;
 
-    // The film must be in host memory, and no submission may be running. May be called once. If a word of the rare
-    // planes is not 0, returns false and folds nothing, because the next submission expects zeros there.
+    // The film must be in host memory, and no submission may be running. May be called once. Folds nothing and returns
+    // false if the part to be added has a word other than 0 in its rare planes. The next submission expects zeros in
+    // these planes and does not clear them.
     bool fold(std::vector<PixelRange> pixels);
 
     // Must be called after the submission.

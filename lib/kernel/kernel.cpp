@@ -117,7 +117,7 @@ void Kernel::dispatch_nothing() {
     });
 }
 
-// Each batch is one dispatch into one part of the film. The next table of points is unused, because slices end in order
+// Each batch is one dispatch into one part of the film. The next table of points is free, because slices end in order
 // and each running slice has tables of its own.
 std::vector<Kernel::Batch> Kernel::next_batches(const TileSlice &slice) {
     const std::uint64_t split = slice.split();

@@ -1,4 +1,3 @@
-// Points of quasi-random sequences for sampler.glsl.
 #pragma once
 
 #include "shaders/gpu_layout.h"

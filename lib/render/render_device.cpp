@@ -218,7 +218,7 @@ ErrorReader &RenderDevice::bound_error_reader() {
     return *error_reader_;
 }
 
-// A film that is void has no sums to move. Its first samples clear it.
+// A void film has no sums to move. Its first samples clear it.
 void RenderDevice::start(const TileSlice &slice, const ErrorQuery *estimate) {
     if (!slice.takes && film_is_void_)
         return;

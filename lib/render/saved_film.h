@@ -11,7 +11,7 @@
 namespace pt {
 
 // Writes the sum of films of one size into memory of FilmLayout's size. `samples` are the samples of all films
-// together, `pixels` their pixels in the image. The header may have fewer pixels.
+// together, `pixels` is the films' rectangle in the image. The header may have fewer pixels.
 void save(std::span<DeviceFilm *const> films, const TileSamples &samples, const FilmHeader &header,
           const Rectangle &pixels, std::span<std::byte> bytes);
 

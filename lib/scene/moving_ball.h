@@ -121,7 +121,7 @@ inline bool lies_apart(const MovingBall &ball, const MovingBall &surface) {
 // The ball's word in the scene buffer's block `motion` (gpu_layout.h). If 1 / length of a capsule overflows, it becomes
 // a ball.
 inline glm::vec4 way_word(const MovingBall &ball) {
-    const glm::vec3 rounded = glm::vec3(ball.way) + 0.0F; // -0 becomes +0, for twins
+    const glm::vec3 rounded = glm::vec3(ball.way) + 0.0F; // -0 becomes +0, so that twins have equal words
     if (ball.kind == Kind::ball)
         return {rounded, 0.0F};
     const auto inverse = static_cast<float>(1.0 / glm::length(ball.way));

@@ -83,7 +83,7 @@ void add(Digest &digest, const Material &material) {
     digest.add(material.specular);
     digest.add(material.emission);
     digest.add(static_cast<double>(material.glossiness));
-    if (material.hidden) // other scenes keep their digests
+    if (material.hidden) // scenes without hidden materials keep their digests
         digest.add(std::uint64_t{PT_MATERIAL_HIDDEN_FROM_CAMERA});
 }
 

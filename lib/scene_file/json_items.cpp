@@ -184,7 +184,7 @@ private:
     std::optional<std::size_t> line_;
 };
 
-// Returns the position after this text, such as "3:14". Lines and columns (bytes) count from 1.
+// Returns line and column after this text, for example "3:14". Both count from 1; columns are in bytes.
 std::string line_and_column(std::string_view before) {
     const auto line = std::count(before.begin(), before.end(), '\n') + 1;
     const std::size_t line_start = before.rfind('\n') + 1;

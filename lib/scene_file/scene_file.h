@@ -1,5 +1,5 @@
 // Reads scene files into the structs of pt.h. Checks names and types. libpt checks ranges, and explain() translates its
-// messages. Errors are PT_ERROR_INVALID_SCENE, or `blame` of an override.
+// messages. Throws PT_ERROR_INVALID_SCENE, or SceneOverride::blame if an override is wrong.
 #pragma once
 
 #include "lib/base/error.h"

@@ -74,7 +74,7 @@ void for_each_or_sample(Items items, Use use) {
     }
 }
 
-// Returns the box of all centers, or in large groups of a sample whose centers differ.
+// Returns the box of all centers. Large groups have the box of a sample, unless all centers of the sample are equal.
 inline Box centres_of(Items items) {
     Box box;
     for_each_or_sample(items, [&](const TreeItem &item) { box.add_centre(item); });

@@ -354,7 +354,7 @@ bool SphereTree::finds_close_lamps(WorkProgress &progress) const {
         const auto is_close = [&](std::uint32_t other) {
             return other != place && nearly_coincide(ball, surface_of(other));
         };
-        // A sphere that nearly coincides with the lamp contains its center.
+        // A sphere that nearly coincides with the lamp contains the lamp's center.
         const glm::ivec3 centre(words_[first_sphere_ + place]);
         if (any_in({centre, centre}, is_close))
             return true;

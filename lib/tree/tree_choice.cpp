@@ -16,8 +16,8 @@ namespace {
 // the tree would make it slower, because boxes are enlarged by 2^-19 of the tree's reach.
 constexpr std::size_t most_outlying = 50;
 
-// Nearer spheres take at most four of the coordinates' 29 bits. The other 25 bits exceed float32's 24, so nothing is
-// lost.
+// Nearer spheres enlarge the grid by at most this factor. The other spheres then keep 25 of the coordinates' 29 bits,
+// more than float32's 24.
 constexpr double much_farther = 16.0;
 
 // Walks are faster in a tree without capsules. So a few capsules, such as the twelve edges of a cell, stay outside.

@@ -1,4 +1,3 @@
-// Spots are small bright regions that random rays seldom hit (spots.glsl).
 #pragma once
 
 #include "lib/scene/scene.h"

@@ -15,8 +15,8 @@
 
 namespace pt {
 
-// Two rays have enough trips: for 10^6 spheres, the longest walk of invocations in lockstep takes about 100. Samples
-// that need more are lost and reported (walk_was_cut in tree_walk.glsl).
+// A walk traces up to two rays. Among 10^6 spheres, the longest ray of invocations in lockstep takes about 100 trips.
+// Samples that need more than tree_trips are lost and reported (walk_was_cut in tree_walk.glsl).
 std::uint64_t loop_trips_per_walk(const Features &features) {
     constexpr std::uint64_t tree_trips = 200;
     return features.surface_count() + (features[gpu::ID_TREE] ? tree_trips : 0);

@@ -15,8 +15,8 @@ constexpr double same_size = 0x1p-18;
 // A fraction of the distance: four times the spacing of float32.
 constexpr double same_place = 0x1p-21;
 // Planes that differ by more than this in direction and distance are distinct. Positions have errors of 2^-22 of the
-// distance. So planes at this angle coincide only within 2^-14 of the distance from their intersection, and parallel
-// planes only within 2^-14 of the horizon. Both strips are narrower than a pixel in the image.
+// distance. So float32 fails to separate distinct planes only in a strip at their intersection or horizon, which is
+// narrower than a pixel in the image.
 constexpr double two_planes = 0x1p-8;
 
 // (1, sqrt(2), sqrt(3)) / sqrt(6), because spheres on a lattice have different coordinates along it.

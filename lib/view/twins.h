@@ -4,8 +4,8 @@
 
 namespace pt {
 
-// A scene without twins, whose surfaces float32 cannot distinguish. Only the first twin is kept. Otherwise rounding
-// would choose one of the twins for each ray of a path, and light would count twice or never.
+// A scene without twins. Twins have surfaces that float32 cannot distinguish. Only the first of them is kept, because
+// otherwise rounding would choose one of the twins for each ray of a path, and light would count twice or never.
 struct DistinctScene {
     SeenScene seen;
     bool close_lamps;

@@ -24,7 +24,7 @@ constexpr int first_mesa_without_limit = 25;
 // Larger ranges do not help. This range is a multiple of every alignment.
 constexpr std::uint32_t largest_uniform_range = 65'536;
 
-// More than a large GPU runs at a time.
+// More invocations than a large GPU runs at once.
 constexpr std::uint32_t busy_gpu_invocations = 1U << 18;
 
 // Submissions should take 0.05 seconds.
@@ -36,7 +36,7 @@ constexpr std::uint32_t gpu_unrolled = 16;
 
 constexpr std::uint32_t gpu_walk_trips = 8;
 
-// Far longer than it takes a thread to sleep and wake.
+// Far longer than a thread takes to sleep and wake.
 constexpr std::chrono::microseconds gpu_polling{300};
 
 // Reads Mesa's version from a text: "Mesa 22.3.6 (LLVM 15.0.6)".

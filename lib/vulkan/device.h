@@ -33,7 +33,7 @@ struct DevicePolicy {
     bool scene_in_constants;
     std::uint32_t invocations; // enough to keep the device busy; 0: any number
     std::uint32_t queue_depth; // submissions in flight; 2 if the device would idle between them
-    // Active waiting before the thread sleeps.
+    // Time of active waiting before the thread sleeps.
     std::chrono::nanoseconds polling{0};
     // Rate assumed for the first slice. All devices of this kind are faster.
     double tests_per_second = 2.5e8;

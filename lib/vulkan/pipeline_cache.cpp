@@ -15,7 +15,7 @@ namespace pt::vulkan {
 
 namespace {
 
-// Far more than the kernels of a context.
+// Far more than the kernels of a context take.
 constexpr std::uint64_t most_bytes = std::uint64_t{1} << 28;
 
 constexpr std::string_view magic = "ptkernel";

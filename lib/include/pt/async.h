@@ -8,7 +8,7 @@
  *   gives it more. To keep devices busy, let pt_poll wait, or make submissions longer than the time between two polls
  *   (pt_create_info.submit_milliseconds).
  * - Threads: Any thread may poll, one at a time. Any thread may cancel, also while another one polls.
- * - State: Samples are being taken from a pt_start that returns PT_PENDING to the first pt_poll that does not.
+ * - State: Samples are being taken after pt_start has returned PT_PENDING, until pt_poll returns another result.
  *   Meanwhile other calls on the context return PT_ERROR_INVALID_STATE. Exceptions are pt_cancel,
  *   pt_get_context_device, pt_last_error, pt_get_broken_rule and pt_destroy, which waits for the current submissions.
  *   To change scene or camera earlier, call pt_cancel, then pt_poll until it does not return PT_PENDING.

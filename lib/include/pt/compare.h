@@ -29,8 +29,8 @@ typedef struct pt_compared_image {
      * (PT_SAMPLING_ADAPTIVE) shift the mean. */
     uint32_t max_samples;
     uint32_t sampler; /**< PT_SAMPLER_*, 0 if unknown; not PT_SAMPLER_HALTON, whose errors are not random */
-    /** PT_ESTIMATOR_*, 0 if unknown. If only this image's estimator finds lamps by chance, a darker image is no
-     * evidence of other light. */
+    /** PT_ESTIMATOR_*, 0 if unknown. If it finds lamps by chance (uniform, cosine, bsdf) and the other image's
+     * estimator does not, a darker image is not evidence of different light. */
     uint32_t estimator;
 } pt_compared_image;
 
@@ -40,7 +40,7 @@ typedef struct pt_compare_info {
     uint32_t width;       /**< pixels of both images, >= 1 */
     uint32_t height;      /**< pixels, >= 1; width * height <= 2^32 - 1 */
     /** 0 for a single comparison. If images are compared repeatedly while samples are added: the number k of this
-     * comparison, from 1. Comparison k has the probability rate / (k (k + 1)), so all together have rate. */
+     * comparison, from 1. Comparison k uses rate / (k (k + 1)); these sum to rate. */
     uint32_t look;
     pt_compared_image first;  /**< the image to be judged */
     pt_compared_image second; /**< the reference; changes are fractions of its light */

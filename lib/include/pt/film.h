@@ -54,8 +54,8 @@ typedef struct pt_film_info {
     uint32_t estimator;       /**< PT_ESTIMATOR_*, never BEST */
     uint32_t sampler;         /**< PT_SAMPLER_*, never BEST */
     uint32_t tile_count;      /**< number of tiles; 1 if all pixels have the same samples */
-    /** Number of samples that every pixel needs before a target error is reached, so that they hit lamps in view
-     * smaller than a pixel. 0: there are no such lamps. */
+    /** Number of samples of a pixel that are enough to hit lamps in view smaller than a pixel. A target error is
+     * reached only when every pixel has this number. 0: there are no such lamps. */
     uint32_t lamp_sample_count;
     const char *device; /**< devices and drivers that took the samples; ASCII, owned by the film */
     uint32_t flags;     /**< PT_RENDER_* */
@@ -143,7 +143,7 @@ PT_API pt_result pt_get_film_error_estimate(const pt_film *film, pt_error_estima
  * PT_PENDING: some tiles need more samples. PT_TARGET_REACHED: the film has the target error. PT_OK: the film does not
  * have the target error, but all tiles that need more samples already have `most`.
  *
- * One thread at a time. PT_ERROR_INCOMPATIBLE: the film's tiles do not consist of such squares. */
+ * One thread at a time. PT_ERROR_INCOMPATIBLE: pixels of one tile have different samples. */
 PT_API pt_result pt_plan_film(pt_film *film, double target_error, uint32_t most, uint32_t *goals, uint32_t *count);
 
 #ifdef __cplusplus

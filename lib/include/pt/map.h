@@ -9,9 +9,9 @@
 extern "C" {
 #endif
 
-/** Makes an image with the bits of pt_readback in the library's memory. image is as for pt_readback, but data,
- * size_bytes and row_bytes must be 0. *data receives the address of the pixels, a multiple of 16. The pixels are row by
- * row from the top, without gaps. *size_bytes receives their size; size_bytes may be NULL.
+/** Makes an image in the library's memory, with the same bits as from pt_readback. image is as for pt_readback, but
+ * data, size_bytes and row_bytes must be 0. *data receives the address of the pixels, a multiple of 16. The pixels are
+ * row by row from the top, without gaps. *size_bytes receives their size; size_bytes may be NULL.
  *
  * The context owns the pixels. The caller may read and write them until the next pt_map_image, pt_set_render,
  * pt_reload_shaders or pt_destroy on the context, also while samples are being taken (pt/async.h). Any thread may read

@@ -109,8 +109,8 @@ enum {
 
 /** A ball. Its surface is visible, lit and emitting on both sides. The center at time t is center + t * motion.
  *
- * Spheres that float32 cannot separate, as seen from the camera, are merged into the first one in the scene. So are
- * planes. Two spheres are merged if
+ * Spheres that float32 cannot separate, as seen from the camera, are merged into the first one in the scene. Planes are
+ * merged by the same rule. Two spheres are merged if
  * - their radii differ by less than 2^-18 * radius, and
  * - their centers differ by less than 2^-18 * radius + 2^-21 * distance, and by less than radius / 4.
  *

@@ -46,17 +46,17 @@ typedef struct pt_stats {
 enum {
     PT_UNCERTAIN_RMSE = 1, /**< rmse comes from fewer than 4 pixels: rare bright samples, or a small lamp */
     /** relative_rmse comes from fewer than 4 pixels, or from light that only single samples have found. If that light
-     * is rare, the square of the true error may be three times the stated one. */
+     * is rare, the true error may be sqrt(3) times the stated one. */
     PT_UNCERTAIN_RELATIVE_RMSE = 2,
-    /** more than a tenth of the square of relative_rmse is expected from dark pixels beside very bright ones, as light
-     * that no sample has found. */
+    /** more than a tenth of the square of relative_rmse is expected from light that no sample has found, in dark pixels
+     * beside very bright ones. */
     PT_UNCERTAIN_UNSEEN = 4,
     /** samples may have missed lamps, for one of two reasons.
      * - Less than half of a pixel's samples hit lamps in view that are small, move, are out of focus or shine through
      *   translucent spheres. Fewer than 6 samples are expected to have hit them, and the error computed from their
      *   sizes is larger than the samples show.
      * - Lamps (uniform, cosine, bsdf) or lobes (uniform, cosine) are found by chance, and fewer than a thousand samples
-     *   of all pixels have hit an important one. */
+     *   of all pixels have hit an important lamp or lobe. */
     PT_UNCERTAIN_UNMET = 8
 };
 

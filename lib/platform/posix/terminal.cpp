@@ -41,7 +41,7 @@ void prepare_streams() {
     for (const int stream : {standard_input, standard_output, standard_error}) {
         if (fcntl(stream, F_GETFD) == -1 && errno == EBADF) {
             // open() returns the lowest free number, which is the number of the closed stream. The wrong mode makes
-            // reads and writes of the stream still fail with EBADF.
+            // reads and writes fail with EBADF, as on a closed stream.
             static_cast<void>(open("/dev/null", stream == standard_input ? O_WRONLY : O_RDONLY));
         }
     }

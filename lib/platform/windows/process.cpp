@@ -74,7 +74,6 @@ fs::path find_program(const std::string &name) {
     return {};
 }
 
-// A process cannot be replaced on Windows, so this one waits for the program.
 int run_instead(const fs::path &program, char *const *) {
     std::wstring line = L'"' + program.wstring() + L"\" " + after_word(after_word(GetCommandLineW()));
     STARTUPINFOW start{};
