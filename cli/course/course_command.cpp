@@ -72,7 +72,7 @@ int grade(const std::string &folder, const std::string &device) {
 
 constexpr const char *next_step = "next";
 
-// A mistake may spoil the step before its own, which cannot name it.
+// A mistake may already spoil the step before its own. This earlier step cannot name the mistake.
 int check_next(CourseKernels &kernels) {
     const std::vector<CourseStep> &steps = course_steps();
     for (auto step = steps.begin(); step != steps.end(); ++step) {

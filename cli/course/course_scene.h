@@ -11,10 +11,8 @@
 
 namespace cli {
 
-// ---- Five lamps above a tilted floor --------------------------------------------------------------------------------
-
-// Seen from above by parallel rays. The lamps are as far away as the sky. The red lamp is above the floor, two green
-// lamps are beside it, and two blue ones are opposite.
+// Five lamps above a tilted floor, seen from above by parallel rays. The lamps are as far away as the sky. The red lamp
+// is above the floor, two green lamps are beside it, and two blue ones are opposite.
 SceneFile lamps_above_a_floor(std::uint32_t side, std::uint32_t sample_count);
 
 using Channels = std::array<double, 3>;
@@ -31,24 +29,20 @@ glm::dvec3 unturned(const glm::dvec3 &direction, const glm::dvec3 &normal);
 // Means of the picture, by quadrature over the sphere.
 Channels lamplight(const Turn &turn, const Weight &weight);
 
-// The same for a kernel that takes one number for both dimensions. Its directions lie on a spiral of one turn, with
+// The means for a kernel that uses one number for both dimensions. Its directions lie on a spiral of one turn, with
 // heights from `first` to `last`.
 Channels lamplight_of_equal_numbers(double first, double last);
 
 inline constexpr double lamp_count = 5.0;
-double red_lamp_cosine(); // of its half angle; the normal is its axis
+double red_lamp_cosine(); // cosine of half the angle of the lamp's cone about the normal
 
 // Exact values by form factors of spheres above a plane, sin^2 a cos (Snyder 1996).
 Channels right_lamplight();
 
-// ---- A floor under the sky ------------------------------------------------------------------------------------------
-
 // The sky is yellow. The tilted floor reflects red diffusely and green in a lobe. It emits and reflects blue, so the
-// blue channel shows the floor's own light, 1. One sample for each pixel.
+// blue channel shows the floor's own light, 1. Each pixel has one sample.
 SceneFile floor_under_the_sky();
 inline constexpr double floor_glossiness = 8.0;
-
-// ---- A ball around a lamp -------------------------------------------------------------------------------------------
 
 // Radiance in selftest's lamp_in_a_ball(). A direction hits the lamp with the weight `hit`, and the wall with `missed`.
 double light_in_a_ball(double hit, double missed, int vertices = 3);
@@ -57,12 +51,8 @@ double ball_cosine(); // cosine of half the angle of the lamp's cone
 // A ball of emission 1 that reflects half, seen from its inside.
 SceneFile glowing_ball(std::uint32_t max_path_length);
 
-// ---- A lamp behind a ball -------------------------------------------------------------------------------------------
-
-// The floor in view is in full shadow.
+// A floor in the full shadow of a ball.
 SceneFile shadow();
-
-// ---- A disc ---------------------------------------------------------------------------------------------------------
 
 // A lamp seen by parallel rays, 32 pixels wide.
 SceneFile disc(bool moves);
@@ -81,8 +71,6 @@ struct DiscSample {
 std::vector<Measured> disc_values(std::span<const double> coverage, double bound_factor);
 std::vector<Measured> disc_values(const Picture &picture);
 std::vector<Range> disc_values(bool moves, const std::vector<DiscSample> &samples);
-
-// ---- Scenes of the course -------------------------------------------------------------------------------------------
 
 // Reads the file `name` in cli/scenes. The picture has 64x32 pixels.
 SceneFile course_scene(const std::string &name, std::uint32_t sample_count, std::uint32_t max_path_length,

@@ -35,7 +35,7 @@ std::vector<Measured> measure_emission(CourseKernels &kernels) {
         const double value = picture.at(middle, middle, channel);
         return Measured{name, value, 1e-5 * value};
     };
-    // Middles of pixels cover the disc to within 2%.
+    // The number of pixels with their middles in the disc is within 2% of its area.
     const double share = std::numbers::pi * disc_radius * disc_radius / (picture.width * picture.height);
     const double mean = picture.mean("", 0).value;
     return {color("a lamp's emission, red", 0),

@@ -11,7 +11,7 @@ constexpr double most_needed = 2.0; // limit of samples_needed(), a rule of the 
 SceneFile lamp_scene(const char *name) {
     SceneFile scene = course_scene(name, 16, 2, PT_ESTIMATOR_LIGHT);
     scene.render.sampler = PT_SAMPLER_RANDOM;
-    scene.render.width = 256; // few pixels have most of the error
+    scene.render.width = 256; // many pixels, because few of them have most of the error
     scene.render.height = 128;
     return scene;
 }
@@ -22,12 +22,12 @@ constexpr double square_light(double x) {
     return (1.0 - x * x) * (1.0 - x * x);
 }
 
-// One of `count` lamps has the sample: count (2 (1 - x) cosine)^2, in the mean over the cone.
+// The sample goes to one of `count` lamps. Its square is count (2 (1 - x) cosine)^2 on average over the cone.
 constexpr double variance_of_choice(double x, double count) {
     return count * 4.0 / 3.0 * (1.0 - x) * (1.0 - x * x * x) / square_light(x) - 1.0;
 }
 
-// A direction meets the lamp: 1 with the density cosine / pi, (2 cosine)^2 with uniform directions.
+// If a direction hits the lamp, the sample is 1 with the density cosine / pi, and 2 cosine with uniform directions.
 constexpr double variance_by_cosine(double x) {
     return 1.0 / (1.0 - x * x) - 1.0;
 }
@@ -90,7 +90,7 @@ std::vector<Measured> measure_outside(CourseKernels &kernels) {
     return {kernels.samples_needed("samples needed per library sample", lamp_scene("coursework-outside.json"))};
 }
 
-// Chance and equal choice have nearly the same noise here.
+// Both mistakes have nearly the same noise.
 std::vector<Pattern> outside_patterns() {
     return {{"", "", {{0.0, most_needed}}},
             {"lamps hit by chance or chosen alike",

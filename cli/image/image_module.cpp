@@ -62,7 +62,7 @@ OIIO::ImageSpec describe_radiance(const ImageData &image) {
     spec.full_width = static_cast<int>(full_width);
     spec.full_height = static_cast<int>(full_height);
     add_chromaticities(spec);
-    spec.attribute("DateTime", ""); // otherwise it is the present date
+    spec.attribute("DateTime", ""); // otherwise OpenImageIO writes the present date
     return spec;
 }
 

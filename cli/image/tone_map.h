@@ -13,7 +13,7 @@
 
 namespace cli {
 
-// display.exposure is known, even if it is automatic.
+// display.exposure is a number, even if the exposure is automatic.
 struct ToneMap {
     pt_display_info display;
     bool is_automatic = false;
@@ -23,7 +23,7 @@ ToneMap tone_map_for(pt_display_info display, std::span<const float> radiance);
 
 double automatic_exposure(std::span<const float> radiance);
 
-// Bytes with the channels of pt_display, on all processors.
+// Calls pt_display on all processors.
 std::vector<std::uint8_t> map_to_bytes(std::span<const float> radiance, const ToneMap &map,
                                        std::span<const float> alpha = {});
 

@@ -13,7 +13,7 @@ struct RenderTask {
     SceneFile scene;            // load() adds the files of columns
     pt_render render;           // settings of the whole picture
     ImageWindow window;         // part to render
-    std::uint32_t sample_count; // of each half; the maximum, if a rule may end the rendering
+    std::uint32_t sample_count; // samples of each half; the maximum, if a rule may end the rendering
 
     // Throws Failure for an impossible crop or number of samples.
     RenderTask(RenderOptions chosen, SceneFile file);

@@ -17,7 +17,7 @@
 namespace cli {
 namespace {
 
-// Signals that come just before a wait are late by at most this.
+// A signal that comes just before a wait is noticed at most this much later.
 constexpr std::chrono::milliseconds patience{200};
 
 // Pipes can be read only once.

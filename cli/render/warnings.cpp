@@ -76,10 +76,10 @@ bool is_black(std::span<const float> radiance) {
     return !radiance.empty() && std::ranges::all_of(radiance, [](float value) { return value == 0.0F; });
 }
 
-// Relative errors count light below 0.1 as 0.1 (pt_error_estimate), so a dark picture has small ones even if it is
-// noisy. Scaling all emission scales the picture and its noise.
+// Relative errors count light below 0.1 as 0.1 (pt_error_estimate). A dark picture therefore has small relative errors
+// even if it is noisy.
 std::optional<std::string> picture_below_its_target(const RenderReport &report, std::span<const float> radiance) {
-    // The average 0.18 / 2^4.5 is 0.008. A target of 1% then permits noise of 0.001.
+    // The picture's average is then 0.18 / 2^4.5 = 0.008. A target of 1% permits noise of 1% of 0.1.
     constexpr double most_stops = 4.5;
     if (report.target_error <= 0.0 || is_black(radiance))
         return std::nullopt;

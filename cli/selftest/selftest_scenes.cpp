@@ -15,9 +15,9 @@ namespace {
 constexpr double false_alarm = 1e-7;
 
 // Bernstein's inequality (Boucheron, Lugosi, Massart, Concentration Inequalities, 2013, section 2.8): P(|error| > t) <=
-// 2 exp(-n t^2 / (2 s^2 + 2 m t / 3)) for n independent samples of variance s^2 and deviations up to m. The bound is
-// the solution for t. Samples that are nonzero with probability p have s^2 = (1 - p) / p and m = max(s^2, 1) <= s^2 + 6
-// s for p <= 0.97. Stratified samples have less noise.
+// 2 exp(-n t^2 / (2 s^2 + 2 m t / 3)) for the mean of n independent samples of mean 1, variance s^2 and deviations up
+// to m. The bound is the solution for t. Samples that are nonzero with probability p have s^2 = (1 - p) / p and m =
+// max(s^2, 1) <= s^2 + 6 s for p <= 0.97. Stratified samples have less noise.
 double noise_bound(double relative_std, double sample_count) {
     const double log_probability = std::log(2.0 / false_alarm);
     const double variance = relative_std * relative_std;

@@ -20,10 +20,8 @@ struct Exact {
 // An upper bound for 50 operations with an error of 2^-24 = 6e-8 each.
 inline constexpr double rounding = 3e-6;
 
-// Solves Bernstein's inequality P(|error| > t) <= 2 exp(-n t^2 / (2 s^2 + 2 m t / 3)) for t (Boucheron, Lugosi and
-// Massart, Concentration Inequalities, 2013, section 2.8). The inequality bounds the relative error of a mean of n
-// skewed samples with variance s^2 and deviations up to m. Samples that are nonzero with probability p have s^2 = (1 -
-// p) / p. Their deviations are at most s^2 upwards and 1 downwards, so m = s^2 + 6 s is large enough up to p = 0.97.
+// Bounds the relative error of a mean of skewed samples by Bernstein's inequality (noise_bound() in
+// cli/selftest/selftest_scenes.cpp).
 inline double noise_bound(double relative_std, std::uint32_t sample_count,
                           double false_alarm = false_alarm_per_judgement) {
     const double n = sample_count;

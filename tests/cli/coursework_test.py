@@ -43,7 +43,7 @@ MISTAKES = (
     for (uint lamp = chosen; lamp == chosen""").replace("light +=", "light += float(LAMP_COUNT) *"), "lamps chosen alike"),
     ("7-motion", "time = next_number();", "time = 0.5;", "one time for all samples"),
 )
-# A mistake whose error no pattern predicts.
+# No pattern predicts the error of this mistake.
 UNKNOWN = ("3-throughput", "material.diffuse / PI +", "material.diffuse.bgr / 2.2 +")
 
 

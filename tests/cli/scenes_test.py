@@ -5,7 +5,7 @@ import pathlib
 from command_line import PT, SCENES, CommandLineTest
 from scene_file import read_scene
 
-# As in the original coursework, these scenes' materials reflect more light than they receive.
+# These scenes' materials reflect more light than they receive, like in the original coursework.
 WARNED_OF = ["coursework-motion.json", "coursework.json"]
 FILES = sorted(name for name in os.listdir(SCENES) if name.endswith(".json"))
 

@@ -56,7 +56,7 @@ Noise normal(double deviation) {
     return [=](std::mt19937 &random) { return std::normal_distribution(1.0, deviation)(random); };
 }
 
-// Rare events with the mean 1. A pixel has `share` events on average.
+// Light of mean 1 from rare events. A pixel has `share` events on average.
 Noise rare_events(double share) {
     return [=](std::mt19937 &random) { return std::poisson_distribution<int>(share)(random) / share; };
 }
@@ -203,7 +203,7 @@ TEST(Comparison, TooFewSamplesAreToldFromTheSameLight) {
     EXPECT_EQ(compared(info_of(black, second)).light, PT_LIGHT_UNDECIDED); // The black image may have missed the lamp.
 }
 
-// A darker image is evidence unless it may have missed light and the other image may not.
+// A darker image shows a difference, unless it may have missed light that the other image cannot miss.
 TEST(Comparison, LackOfLightThatMayBeMissedSaysNothing) {
     std::mt19937 random(5);
     const Pixels darker = drawn(random, normal(0.02));

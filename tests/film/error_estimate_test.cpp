@@ -95,8 +95,9 @@ TEST(ErrorEstimate, TellsLampsFromRareSamples) {
     EXPECT_GT(expected(40, 0), 300.0);
 }
 
-// 40 pixels have one hit each, and 0 or 20 other pixels have several hits. 20 pixels allow an expected number of 20 -
-// 1.96 sqrt(20). With 0 pixels, the light may be so rare that errors are relative to the black around each pixel.
+// 40 pixels have one hit each, and 0 or 20 other pixels have several hits. If 20 pixels have several hits, at least 20
+// - 1.96 sqrt(20) such pixels are expected. If none has, the light may be so rare that errors are relative to the black
+// around each pixel.
 TEST(ErrorEstimate, IsBoundedByTheRarestLightThatMeetingsAllow) {
     const double least = 20.0 - 1.96 * std::sqrt(20.0);
     const auto square = [](double met_again) {

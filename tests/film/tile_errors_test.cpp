@@ -189,7 +189,8 @@ TEST(TileErrors, AreSumsOverPixels) {
     }
 }
 
-// Integrates 0.055 / (2 sqrt(p)) p / N / (a^2 + p^2) over p from 0 to 1 / N, in steps of s = sqrt(p).
+// The expected value is the integral of 0.055 / (2 sqrt(p)) p / N / (a^2 + p^2) over p from 0 to 1 / N. The loop takes
+// steps of s = sqrt(p).
 TEST(TileErrors, UnseenLightIsTheExpectationOverCorners) {
     constexpr double samples = 64.0;
     for (const double b : {1.01, 2.0, 10.0, 100.0, 1e4, 1e6}) {

@@ -20,7 +20,7 @@ struct Input {
     pt_render render{};
     std::uint32_t sample_count = 1;
 
-    // Wrong values that replace the input's values. They claim at most the memory that exists, or must be refused.
+    // Wrong values in place of the input's values. The library must refuse claims of more memory than exists.
     struct SceneClaims {
         bool has_materials = true;
         bool has_spheres = true;

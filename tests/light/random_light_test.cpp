@@ -236,8 +236,8 @@ std::vector<pt_render> renders_of(const Picture &picture, std::uint32_t seed) {
 }
 
 // The bounds allow one false alarm in a thousand runs for images and blocks, and one in ten thousand for all together.
-// The negative control of one scene of each kind has lobes larger by 3%. With trees, lamps brighter by 3% and another
-// view are further controls.
+// Negative controls: lobes larger by 3% in one scene of each kind, and with trees also lamps brighter by 3% and another
+// view.
 TEST_F(RandomLight, IsThatOfAPathTracerInDouble) {
     const double bound = student_bound(1e-3 / (28.0 * scene_count()), image_count); // at most two renders a scene
     std::vector<double> deviations;

@@ -58,8 +58,8 @@ double triple_deviate(const std::vector<std::uint32_t> &x, const std::vector<std
     return statistics::chi_square_deviate(observed, std::vector<double>(cells, static_cast<double>(x.size()) / cells));
 }
 
-// The shifts of a pixel are multiples of one word. Each block has a factor f. If a f1 + b f2 + c f3 = 0 for small
-// integers a, b and c, the shifts of three blocks lie on few planes.
+// In a pixel, the shift of a block is one word times the block's factor f. If a f1 + b f2 + c f3 = 0 for small integers
+// a, b and c, the shifts of three blocks lie on few planes.
 TEST(SobolScrambling, IsIndependentAmongThreeBlocksOfAPath) {
     for (const int which : {0, 1, 2}) {
         const auto blocks = scrambles_of_blocks(which);

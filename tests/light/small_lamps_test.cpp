@@ -144,7 +144,7 @@ TEST(SmallLamps, AreThoseThatTheCameraSees) {
 TEST(SmallLamps, AreSpreadByTheirMotion) {
     pt::Camera open = camera;
     open.shutter_close = 1.0;
-    for (const double way : {20.0, 300.0}) { // sampled at every pixel or at fewer moments
+    for (const double way : {20.0, 300.0}) { // the motion is sampled at every pixel, or more coarsely
         pt_sphere moving = sphere_at(-0.5 * way, 0.5, 100, radius, lamp);
         moving.motion[0] = way;
         double seen = 0.0;

@@ -36,7 +36,7 @@ class Comparison:
     light: Light
     probability: float  # upper bound for the probability that equal light shows such differences
     smallest_change: float  # smallest relative change of all light that is found with 99% probability; infinite if none
-    smallest_tile_change: float  # the same for tiles of 32 x 32 pixels; median of the tiles
+    smallest_tile_change: float  # median over tiles of 32 x 32 pixels of a tile's smallest change
     rate: float  # limit for probabilities in this test: below it the light differs
     summary: str
     regions: tuple[Region, ...]  # the whole picture, then tiles whose sides are halved down to 16 pixels

@@ -29,12 +29,12 @@ PALETTE: Final = ((0, 114, 178), (230, 159, 0), (0, 158, 115), (213, 94, 0), (86
 PALE: Final = 0.6  # fraction of the palette's distance from white, for carbon
 TINT: Final = 0.25  # fraction of an element's own color, mixed with the column's; by taste
 MOST_CATEGORIES: Final = 1000
-SKEW: Final = 4.0  # full range divided by the 1% to 99% range; uniform: 1, normal: 2, exponential: 3
+SKEW: Final = 4.0  # limit of (full range) / (range from 1% to 99%), which is 1 for uniform, 2 for normal and 3 for exponential values
 
 
 @dataclass(frozen=True)
 class ColorBar:
-    """`low` and `high` have the first and the last color. If they are equal, the norm is wider."""
+    """The values `low` and `high` have the first and the last color. If they are equal, `norm` has a wider range."""
 
     title: str
     low: float
@@ -131,8 +131,8 @@ def _named(particles: Particles, color: str, given: Options, notes: list[str]) -
 
 
 def _tinted(particles: Particles, name: str, given: Options, notes: list[str]) -> tuple[Bytes, Legend]:
-    """Carbon and hydrogen have the column's color, paler. Other elements mix it with their own. Residues that are no polymer have the
-    colors of elements."""
+    """Carbon and hydrogen have a paler shade of the column's color. Other elements mix their own color with it. Residues outside polymers
+    have the colors of elements."""
     pale, legend = _named(particles, name, given, notes)
     pale = np.broadcast_to((255.0 + PALE * (pale - 255.0)), (len(particles), 3))
     numbers = np.asarray(particles.elements)

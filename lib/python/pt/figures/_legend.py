@@ -23,7 +23,7 @@ def _plain(text: str) -> str:
 
 
 def draw(legend: Legend, height: float, font: float, ink: Any) -> Any:
-    """A color bar has this `height`, in inches, and a column of swatches is at most as high. `font` is in points."""
+    """`height`, in inches, is the height of a color bar and the limit for a column of swatches. `font` is in points."""
     if legend is None:
         raise ValueError("legend: there is nothing to tell, as all colors are given or alike")
     with _matplotlib().rc_context({"font.size": font, "text.color": ink, "axes.labelcolor": ink, "axes.edgecolor": ink,

@@ -10,11 +10,11 @@ from pt.figures._cell import Cell
 
 Array = npt.NDArray[Any]
 
-MOST_COMPARED: Final = 400_000_000  # pairs, which take about a minute
+MOST_COMPARED: Final = 400_000_000  # pairs; comparing them takes about a minute
 MOST_FOUND: Final = 20_000_000
 COMPARED_AT_ONCE: Final = 1 << 21
 SLACK: Final = 1.0 + 2.0**-30
-AHEAD: Final = ((0, 1), (1, -1), (1, 0), (1, 1))  # neighbouring rows in a grid, without their opposites
+AHEAD: Final = ((0, 1), (1, -1), (1, 0), (1, 1))  # steps to half of the neighbouring rows in a grid; the other steps are opposite
 
 
 class Pairs(NamedTuple):
@@ -59,7 +59,7 @@ def pairs_within(positions: Array, cutoff: float, cell: Cell | None, radii: Arra
 
 
 def _is_first(first: Array, second: Array, steps: Array) -> Array:
-    """Each pair also occurs reversed, with opposite steps. Exactly one of the two is first."""
+    """Chooses one of each pair and its reverse, which has opposite steps."""
     ahead = np.sign(steps) @ (9, 3, 1)
     result: Array = (first < second) | ((first == second) & (ahead > 0))
     return result

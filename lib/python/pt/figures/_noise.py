@@ -18,7 +18,7 @@ from pt._scene import Scene
 
 MOST_NOISE: Final = 1.5  # steps of 1/255; by taste
 FIRST_SAMPLES: Final = 16  # the fewest with a stated error
-MOST_SAMPLES: Final = 256  # of a pixel: fine textures hide what noise is left; by taste
+MOST_SAMPLES: Final = 256  # of a pixel; fine textures hide the remaining noise; by taste
 WORST: Final = 1.5  # largest noise of a neighbourhood, relative to MOST_NOISE; by taste
 FLOOR: Final = 0.4  # the same of an even floor, where noise shows most
 SHARE: Final = 1.03  # a round aims at this multiple of the allowed square, because quasi-random samples do better than random ones
@@ -49,7 +49,7 @@ class Noise:
 
 
 def squares_of(show: Show, radiance: npt.NDArray[np.float32], error: npt.NDArray[np.float32]) -> Doubles:
-    """A quarter of the squared error of each pixel in steps of 1/255, the mean of its channels. `show` gives 16 bits."""
+    """Returns a quarter of each pixel's squared error in steps of 1/255, averaged over channels. `show` gives 16 bits."""
     darker, brighter = (show(np.maximum(each, 0.0)).astype(np.float64) for each in (radiance - error, radiance + error))
     squares: Doubles = np.square((brighter - darker) * (0.25 * 255.0 / 65535.0)).mean(axis=2)
     return squares

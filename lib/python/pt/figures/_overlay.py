@@ -21,7 +21,7 @@ LEAST_RADIUS: Final = 2.5
 
 
 OUTLINE_LIGHT: Final = 0.01
-SMALL_STEP: Final = 1.0  # in radii; by taste, as the next four
+SMALL_STEP: Final = 1.0  # in radii; by taste, like the next four values
 LARGE_STEP: Final = 8.0
 WIDER: Final = 2.0  # width of outlines at large steps
 RESIDUES_APART: Final = 6

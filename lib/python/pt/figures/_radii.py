@@ -22,7 +22,7 @@ MOST_PAIRS: Final = 4_000_000
 TABLE_BITS: Final = 20
 COVER: Final = 0.01  # least fraction of the picture that balls of unknown radii cover; by taste
 THIN: Final = 0.001  # least radius of these balls, relative to the picture's side
-SLACK: Final = 0.225  # angstroms; half of the greatest excess of a bond over covalent radii
+SLACK: Final = 0.225  # angstroms; bonds are longer than two covalent radii by at most twice this
 MOST_FACTOR: Final = 3.0  # largest factor of covalent radii, so that balls of dilute gases stay apart; by taste
 STEPS: Final = np.indices((3, 3, 3)).reshape(3, 1, 27) - 1
 
@@ -139,8 +139,7 @@ def covalent_factor(particles: Particles) -> float | None:
     radii = elements.COVALENT_RADII[np.unique(particles.elements)]
     radii = radii[radii > 0]
     typical = typical_radius(particles.positions)
-    # Bonded neighbours are 2 covalent radii apart, others in solids up to 6. Particles of a gas at 0 degrees Celsius and 1 bar are 32
-    # apart.
+    # Distances of neighbours in covalent radii: 2 if bonded, up to 6 in other solids, 32 in a gas at 0 degrees Celsius and 1 bar.
     if not len(radii) or not 0.7 * radii.min() <= typical <= 30.0 * radii.max():
         return None
     largest = float(radii.max())
@@ -189,14 +188,14 @@ def _of_types(particles: Particles, radii: Mapping[str, float]) -> Array:
 
 
 def typical_radius(positions: Array) -> float:
-    """Half of the distance between most nearest neighbours, so most balls just touch. For random points it is half of the
-    median distance to the fourth neighbour. Neighbours at the same place do not count."""
+    """Half of the median distance to the nearest neighbour, so most balls just touch. For random points it is half of the median distance
+    to the fourth neighbour. Neighbours at the same place do not count."""
     first, fourth = _neighbour_distances(positions)
     if not len(first):
         return 1.0
     median = float(np.median(first))
-    # For random points on a surface, a twentieth of the nearest distances is below 0.27 medians: the square root of
-    # log(0.95) / log(0.5). In space it is the cube root, 0.42. No two atoms are closer than half of the median.
+    # Among random points, a twentieth of the nearest distances is below 0.27 medians on a surface, sqrt(log(0.95) / log(0.5)), and below
+    # 0.42 in space, the cube root. Atoms are at least half of the median apart.
     if len(fourth) and float(np.quantile(first, 0.05)) < 0.5 * median:
         median = float(np.median(fourth))
     return 0.5 * median

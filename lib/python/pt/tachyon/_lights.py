@@ -49,7 +49,7 @@ class Surroundings:
         return float(min(gaps, default=np.inf))
 
     def extent(self, lights: list[Light]) -> float:
-        """The largest distance from the target to anything but planes, above 0."""
+        """The largest distance from the target to a surface other than a plane; always above 0."""
         reach = np.linalg.norm(np.array([self.centers, self.ends]) - self.target, axis=2).max(axis=0) + self.radii
         places = [np.array(light.place) for light in lights if not light.is_directional] + [self.camera]
         return float(max([float(np.linalg.norm(place - self.target)) for place in places] + reach.tolist()))

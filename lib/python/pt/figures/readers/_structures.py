@@ -201,7 +201,7 @@ def _bonds(structure: Any, columns: dict[str, Array], notes: list[str]) -> Bonds
 
 
 def _connections(structure: Any, columns: dict[str, Array]) -> Iterator[tuple[int, int]]:
-    """From struct_conn, or LINK and SSBOND, within the asymmetric unit. Hydrogen bonds are left out."""
+    """Reads bonds within the asymmetric unit from struct_conn, or from LINK and SSBOND. Hydrogen bonds are left out."""
     gemmi = module("gemmi", structure.name)
     wanted = [each for each in structure.connections
               if each.type != gemmi.ConnectionType.Hydrog and each.asu != gemmi.Asu.Different]
