@@ -226,9 +226,8 @@ std::vector<Measured> disc_values(std::span<const double> coverage, double bound
             {"its spread along x", spread, 0.3 * bound_factor}};
 }
 
-// At an edge a pixel's mean of 256 samples has a standard deviation of at most 1/32. About 80 pixels are partly
-// covered. So the values `soft` and `slanted` have a standard deviation below sqrt(80) / 32 = 0.28, and their bound of
-// 1 is the safest of the four.
+// A pixel's mean of 256 samples has a standard deviation of at most 1/32. About 80 pixels are partly covered. The
+// values `soft` and `slanted` therefore have a standard deviation below sqrt(80) / 32 = 0.28, and the bound 1.
 std::vector<Measured> disc_values(const Picture &picture) {
     std::vector<double> coverage;
     for (std::uint32_t y = 0; y < picture.height; ++y)

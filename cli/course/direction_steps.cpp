@@ -17,8 +17,6 @@ double no_weight_below(double cosine, double weight) {
 
 } // namespace
 
-// ---- 2: directions --------------------------------------------------------------------------------------------------
-
 std::vector<Measured> measure_directions(CourseKernels &kernels) {
     std::vector<Measured> measured = floor_means(kernels, PT_ESTIMATOR_UNIFORM);
     measured.push_back(kernels.edited(glowing_ball(ball_length)).mean("paths in a glowing ball", 0));
@@ -63,8 +61,6 @@ std::vector<Pattern> direction_patterns() {
                         joined(any_values(4), {{1.0001, infinity}})});
     return patterns;
 }
-
-// ---- 3: throughput --------------------------------------------------------------------------------------------------
 
 std::vector<Measured> measure_throughput(CourseKernels &kernels) {
     std::vector<Measured> measured = means(kernels.edited(floor_under_the_sky()), "floor under a sky");
@@ -119,8 +115,6 @@ std::vector<Pattern> throughput_patterns() {
             {"abs(z)", "The half above a surface depends on its normal: turn directions with a negative cosine round.",
              joined(any_values(3), joined(near(lamplight(absolute_z, scaled_cosine(2.0))), {any_value}))}};
 }
-
-// ---- 6a: the geometric term -----------------------------------------------------------------------------------------
 
 std::vector<Measured> measure_cosine(CourseKernels &kernels) {
     SceneFile sky = floor_under_the_sky();

@@ -26,8 +26,6 @@ std::vector<DiscSample> places(double scale, double offset, bool is_diagonal = f
 
 } // namespace
 
-// ---- 1: emission ----------------------------------------------------------------------------------------------------
-
 std::vector<Measured> measure_emission(CourseKernels &kernels) {
     const Picture picture = kernels.edited(disc(false));
     const std::uint32_t middle = picture.width / 2;
@@ -63,8 +61,6 @@ std::vector<Pattern> emission_patterns() {
              {exactly(disc_cosine()), exactly(disc_cosine()), exactly(disc_cosine()), any_value}}};
 }
 
-// ---- 5: box filter --------------------------------------------------------------------------------------------------
-
 std::vector<Measured> measure_filter(CourseKernels &kernels) {
     return disc_values(kernels.edited(disc(false)));
 }
@@ -81,8 +77,6 @@ std::vector<Pattern> filter_patterns() {
              disc_values(false, places(1.0, 0.0, true))},
             {"a box of two pixels", "Numbers in [0, 1) cover one pixel.", disc_values(false, places(2.0, -0.5))}};
 }
-
-// ---- 7: motion ------------------------------------------------------------------------------------------------------
 
 std::vector<Measured> measure_motion(CourseKernels &kernels) {
     return disc_values(kernels.edited(disc(true)));

@@ -1,4 +1,3 @@
-// Measurements and values that several steps share.
 #pragma once
 
 #include "cli/course/course_scene.h"

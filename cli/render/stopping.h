@@ -32,8 +32,7 @@ inline constexpr const char *stopping_options = "--error or --time";
 inline constexpr const char *ended_by_time = "time";
 
 // Forecasts the samples for a target error. `error` may be infinite. Independent errors fall as n^-1/2 and stratified
-// ones faster, so the forecast falls with time. It is at least the count of the next check, so that progress does not
-// reach 100% too early.
+// ones faster, so the forecast falls with time. It is at least the count of the next check.
 inline std::uint32_t forecast_sample_count(std::uint32_t sample_count, double error, double target_error,
                                            std::uint32_t most) {
     const double ratio = error / target_error;

@@ -179,8 +179,7 @@ SelftestScene weights_of_a_chosen_lamp() {
 
 // A lamp of radiance L and radius r hangs h below a ceiling of albedo A. The ceiling is H above the floor. Straight
 // below, the floor gets L r^2 / (H - h)^2 from the lamp. The ceiling gives L r^2 A 2 h H^2 int_h^inf dv / (v^2 (v^2 +
-// a^2)^2) with a^2 = H^2 - h^2, from points at distances v from the lamp. The ray to the glow finds 71% of the
-// ceiling's light, two directions 29%. The lamp gives 5% of all light.
+// a^2)^2) with a^2 = H^2 - h^2, from points at distances v from the lamp.
 SelftestScene weights_of_a_glow() {
     constexpr double albedo = 20.0;
     constexpr double h = 1.0;

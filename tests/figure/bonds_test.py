@@ -50,7 +50,7 @@ class Known(unittest.TestCase):
         np.testing.assert_array_equal(np.bincount(found_in(fullerene()).atoms), np.full(60, 3))
 
     def test_the_limit_is_the_sum_of_the_radii_and_the_tolerance(self):
-        """The radii are 0.76 for C and 0.31 for H (Cordero 2008). With the tolerance 0.45, C-C bonds end at 2 * 0.76 + 0.45 = 1.97
+        """The radii are 0.76 for C and 0.31 for H (Cordero 2008). The tolerance is 0.45, so C-C bonds end at 2 * 0.76 + 0.45 = 1.97
         angstroms and C-H bonds at 1.52. These are 1.410 and 1.402 times the lengths in benzene."""
         for factor, expected in ((1.40, 12), (1.405, 6), (1.415, 0)):
             scaled = Particles(BENZENE.positions * factor, elements=BENZENE.elements)

@@ -43,7 +43,7 @@ class Command(unittest.TestCase):
         return done
 
     def call_figure(self, *arguments, code=0):
-        """Calls the command in this process, because Python and NumPy take a third of a second to start."""
+        """Calls the command in this process, because Python starts slowly."""
         said = io.StringIO()
         with (unittest.mock.patch("sys.argv", ["pt-figure", *arguments]), contextlib.redirect_stderr(said),
               contextlib.redirect_stdout(io.StringIO()), self.assertRaises(SystemExit) as ended):

@@ -100,7 +100,7 @@ std::optional<pt::Features> features(const Input &input) {
 
 } // namespace
 
-// Building a kernel takes a thousand times as long as rendering an image. Inputs that need another kernel are skipped.
+// Skips inputs that need another kernel, because building a kernel takes long.
 const std::uint32_t neighbour_count = 255;
 
 void examine(std::span<const Input> family) {

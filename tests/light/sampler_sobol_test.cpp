@@ -58,7 +58,7 @@ double triple_deviate(const std::vector<std::uint32_t> &x, const std::vector<std
     return statistics::chi_square_deviate(observed, std::vector<double>(cells, static_cast<double>(x.size()) / cells));
 }
 
-// In a pixel, the shift of a block is one word times the block's factor f. If a f1 + b f2 + c f3 = 0 for small integers
+// The shift of a block is a word of the pixel times the block's factor f. If a f1 + b f2 + c f3 = 0 for small integers
 // a, b and c, the shifts of three blocks lie on few planes.
 TEST(SobolScrambling, IsIndependentAmongThreeBlocksOfAPath) {
     for (const int which : {0, 1, 2}) {

@@ -36,9 +36,9 @@ struct Judgement {
     bool accepts(double ratio) const { return ratio >= low && ratio <= high; }
 };
 
-// shaders/README.md, section 11, has the calibration. With random samples, the brightest few hundred have the largest
-// weights, so stated and true errors scatter. For sequences, stated errors are up to sqrt(3) too large
-// (error_estimate.cpp). The denominators of relative errors make them even larger.
+// shaders/README.md, section 11, has the calibration. With random samples, few bright samples decide both errors, so
+// both scatter. For sequences, stated errors are up to sqrt(3) too large (error_estimate.cpp), and stated relative
+// errors even more.
 constexpr Judgement of_random{0.9, 1.2};
 constexpr Judgement of_sequence{0.8, 2.0};
 

@@ -1,4 +1,4 @@
-"""The scale bar, drawn over the finished picture."""
+"""The scale bar."""
 
 from __future__ import annotations
 
