@@ -31,7 +31,7 @@ SampleKey branch_key(SampleKey key, uint branch)
     return SampleKey(key.seed + uvec2(0u, high), key.pixel, low + branch, key.row + branch * branch_blocks, key.shift);
 }
 
-// The hash pcg4d of Jarzynski and Olano, "Hash Functions for GPU Rendering" (JCGT 9(3), 2020).
+// The hash pcg4d of Jarzynski and Olano 2020.
 uvec4 pcg4d(uvec4 v)
 {
     v = v * 1664525u + 1013904223u;

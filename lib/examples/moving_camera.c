@@ -77,7 +77,7 @@ int main(int argc, char **argv) {
 
     if (result >= 0)
         result = render_frames(context, frames, &samples, &image);
-    if (result < 0) /* if pt_create failed, context is NULL */
+    if (result < 0)
         fprintf(stderr, "%s: %s\n", pt_result_name(result), pt_last_error(context));
     pt_destroy(context);
     if (result >= 0 && !write_pfm("moving_camera.pfm", pixels)) {

@@ -149,7 +149,7 @@ static pt_result render(own_vulkan *own, float *pixels, uint64_t size_bytes) {
 
     if (result >= 0)
         result = render_on(context, pixels, size_bytes);
-    if (result < 0) /* if pt_create failed, context is NULL */
+    if (result < 0)
         fprintf(stderr, "%s: %s\n", pt_result_name(result), pt_last_error(context));
     pt_destroy(context);
     return result;

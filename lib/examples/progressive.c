@@ -84,7 +84,7 @@ static pt_result render_in_steps(render_job *job) {
             result = show(job, stats.sample_count);
         if (result >= 0)
             result = accumulated;
-        step.sample_count = stats.sample_count > 0 ? stats.sample_count : 1; /* doubles the samples */
+        step.sample_count = stats.sample_count > 0 ? stats.sample_count : 1;
     }
     return result;
 }

@@ -112,8 +112,8 @@ bool is_check(std::uint64_t sample_count) {
 }
 
 double exaggeration(std::uint32_t sampler) {
-    // E (half the difference of both halves)^2 = (2^p - 1) * squared error (shaders/README.md, section 11). The factor
-    // is 1 for random points, and at most 7 for scrambled nets (p = 3, Owen 1997).
+    // The root of 2^p - 1 (shaders/README.md, section 11): p = 1 for random points, at most 3 for scrambled nets (Owen
+    // 1997).
     return sampler == PT_SAMPLER_RANDOM ? 1.0 : std::sqrt(7.0);
 }
 

@@ -34,7 +34,7 @@ public:
     // Both parts must have samples. gpu::ErrorDivisor explains the standard error.
     struct Difference {
         float standard_error;
-        float lesser; // lower mean of the two parts
+        float lesser;
     };
     Difference difference(WideSum sum_a, WideSum sum_b) const;
 

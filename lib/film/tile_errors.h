@@ -31,16 +31,17 @@ struct TileValues {
     std::array<std::array<PixelValue, 3>, tile_size * tile_size> pixels{};
 };
 
-// Expected squared errors of pixel values x with the limits r, summed over channels. Pixels outside the image have 0.
+// The expected squared errors of TileErrors in gpu_layout.h, by pixel, summed over channels. Pixels outside the image
+// have 0.
 struct PixelErrors {
     using Numbers = std::array<double, tile_size * tile_size>;
 
-    Numbers square{};          // (x - r)^2
-    Numbers relative_square{}; // (x - r)^2 / (r^2 + 0.01), except for light that samples of only one part hit
-    Numbers met_once{};  // relative squares of light that samples of only one part hit, with r from the other part
-    Numbers as_lamps{};  // relative squares of the same light with r = x
-    Numbers met_again{}; // number of values where samples of both parts hit bright light
-    Numbers unseen{};    // expected relative squares from neighbors' light that no sample of the pixel hit
+    Numbers square{};
+    Numbers relative_square{};
+    Numbers met_once{};
+    Numbers as_lamps{};
+    Numbers met_again{};
+    Numbers unseen{};
 };
 
 PixelErrors pixel_errors(const TileValues &tile);

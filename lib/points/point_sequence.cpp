@@ -18,8 +18,7 @@ struct SobolDimension {
     std::array<std::uint32_t, 9> initial;
 };
 
-// S. Joe and F. Y. Kuo, "Constructing Sobol Sequences with Better Two-Dimensional Projections", SIAM J. Sci. Comput. 30
-// (2008), new-joe-kuo-6, dimensions 2 to 64. Dimension 1 is the radical inverse in base 2.
+// Joe and Kuo 2008, new-joe-kuo-6, dimensions 2 to 64. Dimension 1 is the radical inverse in base 2.
 constexpr SobolDimension joe_kuo[sequence_dimensions - 1] = {
     {3, {1}},
     {7, {1, 3}},
@@ -182,8 +181,8 @@ std::uint32_t radical_inverse(std::uint64_t index, std::uint32_t dimension) {
     return static_cast<std::uint32_t>((Wide{reversed} << 32) / power);
 }
 
-// Reverses the bits, so that carries make each digit depend on more significant ones (Laine and Karras 2011; Burley,
-// "Practical Hash-based Owen Scrambling", JCGT 9(4), 2020). The constants are from N. Vegdahl (2021).
+// Reverses the bits, so that carries make each digit depend on more significant ones (Laine and Karras 2011; Burley
+// 2020). The constants are from Vegdahl 2021.
 std::uint32_t owen_scrambled(std::uint32_t coordinate, std::uint32_t seed) {
     std::uint32_t v = reversed_bits(coordinate);
     v ^= v * 0x3d20adeaU;

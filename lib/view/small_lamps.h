@@ -47,11 +47,10 @@ struct UnmetSquares {
     ExpectedSquares relative_square;
 };
 
-// Sums the expected errors of lamps for which samples(piece) are too few. If each of n samples hits a piece of emission
-// E with probability p, the number of hits has the mean n p. For random samples, its variance is n p (1 - p). Each of n
-// cells has one quasi-random point, so only cells on the edge of the piece contribute to the variance. A disc has about
-// 4.5 sqrt(n p) such cells. Each adds 0.13, so the variance is 0.6 sqrt(n p). The error of the mean is E / n times the
-// root of the variance. `offset` is as in (x - r)^2 / (r^2 + offset).
+// Sums the expected errors of lamps for which samples(piece) are too few. If each of n random samples hits a piece with
+// probability p, the number of hits has the variance n p (1 - p). Quasi-random samples have one point in each of n
+// cells, so only cells on the edge of the piece contribute to the variance. A disc has about 4.5 sqrt(n p) edge cells.
+// Each adds 0.13, so the variance is 0.6 sqrt(n p). `offset` is as in (x - r)^2 / (r^2 + offset).
 UnmetSquares unmet_squares(const std::vector<LampPiece> &pieces, double offset, bool is_random,
                            const std::function<std::uint64_t(const LampPiece &)> &samples);
 
