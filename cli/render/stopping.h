@@ -1,5 +1,4 @@
-// Rules that end a rendering early. A new rule needs a field of StoppingRules, a test in StoppingTest, and an option in
-// render_options.cpp.
+// Rules that end a rendering early.
 #pragma once
 
 #include <pt/stats.h>

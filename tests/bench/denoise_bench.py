@@ -1,8 +1,8 @@
 """Measures error and CPU seconds of raw, filtered and combined images of pt, and of Mitsuba's images with the same filter.
 
-benchmark.py describes scenes, references, Mitsuba and relMSE. Needs Open Image Denoise (also in Python: pip install
-pyoidn) and matplotlib. Albedo and normals come from pt, for Mitsuba's images too. The cost is the median CPU seconds of
-sampling and filtering.
+benchmark.py describes scenes, references, Mitsuba and relMSE. Needs Open Image Denoise (pip install pyoidn) and
+matplotlib. Albedo and normals come from pt, for Mitsuba's images too. The cost is the median CPU seconds of sampling
+and filtering.
 """
 
 import argparse

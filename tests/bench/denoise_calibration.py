@@ -3,7 +3,8 @@
     python3 tests/bench/denoise_calibration.py [--own] [--images FOLDER] ...
 
 --own renders the scenes of cli/scenes and calibration_scenes.py. --hundred SEED renders scenes of random_scenes.py.
-PT_LIBRARY and PT_PROGRAM name the library and the program. Needs Open Image Denoise (pip install pyoidn). --images keeps images in the folder and uses them again. --render renders only.
+PT_LIBRARY and PT_PROGRAM name the library and the program. Needs Open Image Denoise (pip install pyoidn). --images
+keeps images in the folder and uses them again. --render renders only.
 
 Errors are differences from an image of many samples. A denoised image is worse if its error exceeds the raw image's
 error by more than 2%. "light" is the difference between the means of both images, divided by the standard error of the

@@ -1,4 +1,4 @@
-"""Measures error and time of samplers and estimators. Makes a table, and JSON.
+"""Measures error and time of samplers and estimators.
 
     PT_LIBRARY=build/lib/libpt.so python3 tests/bench/error_and_time.py cli/scenes/coursework.json --size 64x32 \\
         --samplers random,sobol --spp 4,16 --rounds 1 --json bench.json

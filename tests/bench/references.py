@@ -5,7 +5,6 @@
 
 `render` writes NAME.pfm and NAME.json. NAME.pfm is the reference, the mean of 16 images of different seeds by `mis` and
 `sobol`. NAME.json has the relMSE of the reference, and block means of 64 images by another estimator with random numbers.
-The relMSE should be at most a hundredth of the smallest measured error.
 
 `check` needs Mitsuba (benchmark.py). In each channel of blocks of 16x16 pixels, the reference and the other estimator may
 differ by 6 standard errors. Mitsuba's mean of 16 images may differ by 6 standard errors or half a percent. If all agree,

@@ -1,4 +1,4 @@
-"""Measures how good stated errors and target errors of images are. Prints tables over sets of scenes.
+"""Prints how good stated errors and target errors of images are.
 
     PT_LIBRARY=build/lib/libpt.so PT_PROGRAM=build/bin/pt python3 tests/bench/stated_error.py SET ... [--jobs N]
 

@@ -46,7 +46,6 @@ class ExitCodes(CommandLineTest):
                     os.remove(self.path(name))
 
     def test_a_signal_that_comes_twice_at_once_is_one(self):
-        """timeout(1) signals both the process and its group."""
         process = self.start("render", COURSEWORK, "-o", "a.png", "--spp", "1000000", "--size", "2x2", "--progress",
                              "json", "--checkpoint", "c.ptfilm", FAKE_PT_SAMPLE_MS=200)
         while json.loads(process.stderr.readline())["samples_per_pixel"] == 0:

@@ -1,4 +1,3 @@
-// Injects faults into adaptive sampling.
 #include "tests/faults/allocations.h"
 #include "tests/faults/vulkan_calls.h"
 #include "tests/support/context_calls.h"

@@ -1,4 +1,3 @@
-// Fails every Vulkan call once.
 #include "tests/faults/sweep.h"
 #include "tests/faults/vulkan_calls.h"
 

@@ -1,4 +1,3 @@
-/* The exit status is 0 on success. */
 #include <pt/accuracy.h>
 #include <pt/pt.h>
 

@@ -23,8 +23,8 @@ struct Drawn {
     glm::vec3 direction;
     float distance;
     std::uint32_t lamp;
-    float density;     // density of the direction per solid angle, given the lamp
-    float hit_density; // density of the direction if lamps are found by chance
+    float density;     // per solid angle, given the lamp
+    float hit_density; // if lamps are found by chance
     float probability;
 };
 

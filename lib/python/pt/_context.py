@@ -49,7 +49,7 @@ class Context:
 
     Callbacks run on the calling thread. After an exception in a callback or a signal handler, the call stops at its
     next callback and raises the exception. The context stays usable. Progress functions get the finished fraction, in
-    [0, 1]. They stop the call by returning True.
+    [0, 1].
 
     A failed call raises an Error and changes nothing, except that a lost device stays lost and accumulate may keep some
     samples. A broken rule raises InvalidArgumentError, in scenes InvalidSceneError. Reading an image before the first

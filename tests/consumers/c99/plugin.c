@@ -1,5 +1,5 @@
 /* A host of plugins. It loads the library argv[1], renders, and ends without destroying the context. A second
- * argument unloads the library before the end. The exit status is 0 if the pixel is right. */
+ * argument unloads the library before the end. */
 #include <pt/pt.h>
 
 #include <dlfcn.h>

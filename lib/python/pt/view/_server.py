@@ -1,4 +1,4 @@
-"""The page's server. It listens only on 127.0.0.1. The token in the address gives full control."""
+"""The page's server."""
 
 from __future__ import annotations
 
