@@ -19,9 +19,8 @@ FilmPixel empty_film_pixel()
     return FilmPixel(uvec4[3](uvec4(0u), uvec4(0u), uvec4(0u)), 0u, 0u);
 }
 
-// Adding these biases splits a value into windows of bits (shaders/README.md, section 11; Demmel and Nguyen, "Fast
-// Reproducible Floating-Point Summation", ARITH 2013). A window is below 2^22 units even with rounding towards zero, so
-// the sum of 511 windows fits into 32 bits.
+// Adding these biases splits a value into windows of bits (shaders/README.md, section 11; Demmel and Nguyen 2013). A
+// window is below 2^22 units even with rounding towards zero, so the sum of 511 windows fits into 32 bits.
 const vec4 WINDOW_BIASES = vec4(536870912.0, 192.0, 4.57763671875e-5, 1.0913936421275139e-11);
 
 // The result includes the biases' bits, which film_store() subtracts modulo 2^32.

@@ -114,7 +114,7 @@ PT_CONSTANT NO_SURFACE = 0xffffffffu;
 //   tree              tree of lamps (below), if any; only in the storage buffer
 //   spots[SPOT_COUNT] lamp and surface, each + MATERIAL_INDEX_BITS, as the bits of floats; mean reflectance; glossiness
 //                     of a mirror image, -1 for a glow (not in the storage buffer)
-// Most words in a uniform buffer. Vulkan guarantees 16 KiB.
+// Largest number of words in a uniform buffer. Vulkan guarantees 16 KiB.
 PT_CONSTANT UNIFORM_SCENE_WORDS = 1024;
 // Longer scenes are in the storage buffer, where surfaces of one material share its words:
 //   geometry[S]
@@ -146,7 +146,7 @@ PT_CONSTANT MATERIAL_INDEX_BITS = 0x3f800000;
 //                     TREE_COLORS)
 //   lamp[tree lamps]  slot; index in the material table; 0; 0
 PT_CONSTANT TREE_WIDTH = 4;
-PT_CONSTANT TREE_STACK_SIZE = 27; // most nodes from the root to a sphere
+PT_CONSTANT TREE_STACK_SIZE = 27; // largest number of nodes from the root to a sphere
 PT_CONSTANT TREE_NODE_WORDS = 3;
 PT_CONSTANT TREE_ALIGNMENT = 16; // 256 bytes, the largest alignment that Vulkan allows devices to require ("Limits")
 PT_CONSTANT TREE_LAMP_BIT = 0x80000000u;
@@ -182,7 +182,7 @@ PT_CONSTANT TREE_REACH = 0x20000000; // largest absolute coordinate on the grid,
 //   x, y, z    displacement of the middle while the shutter is open (with MOTION)
 // After the groups come the lamp of each slot and the slot of each lamp, four to a word: MATERIAL_INDEX_BITS + number,
 // as the bits of a float.
-PT_CONSTANT LAMP_TREE_TOP_GROUPS = 4; // most groups at the top
+PT_CONSTANT LAMP_TREE_TOP_GROUPS = 4; // largest number of groups at the top
 PT_CONSTANT LAMP_TREE_BALL = 64;
 
 PT_FUNCTION uint lamp_tree_group_words(uint motion) { return 5 + 3 * motion; }
@@ -237,7 +237,7 @@ struct ErrorSquares {
 struct TileErrors {
     ErrorSquares square;          // (x - r)^2 in film units; x is the mean of a pixel, r its limit
     ErrorSquares relative_square; // (x - r)^2 / (r^2 + offset^2) * relative_scale^2, without pixels of met_once
-    ErrorSquares met_once;        // the same, of pixels whose light only one part's samples hit; r from the other part
+    ErrorSquares met_once;        // as relative_square, where only one part's samples hit the light; r: the other part
     ErrorSquares as_lamps;        // as met_once with r = x
     float unseen;                 // expected square of the error from light that no sample hit
     uint met_again;               // number of values that both parts hit (pixel_error.h)

@@ -32,8 +32,7 @@ vec3 uniform_hemisphere_direction(vec3 axis, vec2 u)
     return dot(direction, axis) < 0.0 ? -direction : direction;
 }
 
-// A uniform point of the unit disc (Shirley and Chiu, "A Low Distortion Map Between Disk and Square", Journal of
-// Graphics Tools 2(3), 1997).
+// A uniform point of the unit disc (Shirley and Chiu 1997).
 vec2 concentric_disc(vec2 u)
 {
     vec2 place = 2.0 * u - 1.0;
@@ -46,8 +45,7 @@ vec2 concentric_disc(vec2 u)
     return radius * sign(place) * (along_x ? vec2(cosine, sine) : vec2(sine, cosine));
 }
 
-// Rotates v by the rotation that takes the z axis to the unit vector `axis` (Duff et al., "Building an Orthonormal
-// Basis, Revisited", JCGT 6(1), 2017).
+// Rotates v by the rotation that takes the z axis to the unit vector `axis` (Duff et al. 2017).
 vec3 rotate_to_axis(vec3 axis, vec3 v)
 {
     float s = axis.z < 0.0 ? -1.0 : 1.0;

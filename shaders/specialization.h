@@ -39,10 +39,10 @@ PT_SPECIALIZED(OVERLAP, 15, 0)         // 1: several invocations may add to a pi
 PT_SPECIALIZED(TREE, 22, 0)
 PT_SPECIALIZED(TREE_LAMPS, 23, 0)      // lamps in the tree; they have the last numbers
 PT_SPECIALIZED(TREE_COLORS, 24, 0)     // 1: tree spheres have colors of their own
-PT_SPECIALIZED(TREE_LEVELS, 35, 0)     // most nodes from the root to a sphere
+PT_SPECIALIZED(TREE_LEVELS, 35, 0)     // largest number of nodes from the root to a sphere
 PT_SPECIALIZED(TREE_INSIDE, 34, 1)     // 1: paths may be inside a sphere of the tree
 PT_SPECIALIZED(POINT_BLOCKS, 12, 1024)
-PT_SPECIALIZED(WALK_TRIPS, 27, 0)      // most iterations of a step (tree_path.glsl); 0: each walk runs to its end
+PT_SPECIALIZED(WALK_TRIPS, 27, 0)      // iteration limit of a step (tree_path.glsl); 0: each walk runs to its end
 PT_SPECIALIZED(SPOT_COUNT, 28, 0)
 // Numbers of surfaces hidden from the camera. They are last among the lamps outside the tree and the other spheres, and
 // first among the skies and the planes.
@@ -55,7 +55,7 @@ PT_SPECIALIZED(KINDS, 40, 1)         // kinds of the spheres outside the tree
 PT_SPECIALIZED(TREE_KINDS, 41, 1)    // kinds of the spheres in the tree
 PT_SPECIALIZED(TREE_OPACITY, 19, 0)  // 1: rays pass through tree spheres at random
 PT_SPECIALIZED(COVERAGE, 42, 0)      // 1: camera rays that hit a surface are counted
-PT_SPECIALIZED(UNROLLED, 36, 112)    // most iterations of unrolled loops
+PT_SPECIALIZED(UNROLLED, 36, 112)    // iteration limit of unrolled loops
 PT_SPECIALIZED(INTEGER_ORDER, 37, 0) // 1: comparisons of integers are faster
 const uint CONSTANT_COUNT = 43;
 // Component i of scene word w is constant_id CONSTANT_COUNT + 4 w + i.

@@ -212,8 +212,8 @@ uint opacity_generator(uvec4 word, uint opacity_number)
     return hash ^ (hash >> 16u) | 1u;
 }
 
-// Whether a ray passes a sphere, at random (Enderton et al. 2010, "Stochastic transparency"). The result depends only
-// on the sphere and opacity_number, not on the order of tests.
+// Whether a ray passes a sphere, at random (Enderton et al. 2010). The result depends only on the sphere and
+// opacity_number, not on the order of tests.
 bool passes(uvec4 word, uint opacity_number)
 {
     if (TREE_OPACITY == 0)

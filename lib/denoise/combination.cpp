@@ -63,7 +63,7 @@ double effective_count(const Tiles &sums) {
     return sum > 0.0 ? squared(sum) / squares : 0.0;
 }
 
-// The variance between tiles includes differences of content, so the interval is rather too wide.
+// The variance between tiles includes differences of content, so the interval tends to be too wide.
 Interval root_mean(const Tiles &sums, const Tiles &value_counts, bool uncertain) {
     double sum = 0.0;
     double count = 0.0;

@@ -197,7 +197,7 @@ std::optional<TileStep> AdaptivePlan::next_together(const TileSamples &samples, 
 }
 
 // A round does not end while a tile needs samples that only a later call may take. If all tiles that want samples have
-// counts_.limit, the tiles with the fewest samples take more.
+// reached counts_.limit, the tiles with the fewest samples take more.
 std::optional<TileStep> AdaptivePlan::next_apart(const TileSamples &samples, AdaptiveRound &round) const {
     const std::vector<double> squares = film_.squares();
     const std::vector<double> gains = tile_gains(samples, squares);

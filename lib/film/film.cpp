@@ -69,7 +69,7 @@ void Film::require_disjoint(const std::vector<FilmTile> &others, const TileMap &
                 require_apart(others[*piece.tile].samples, own.samples, where(piece.pixels));
 }
 
-// Cuts each tile into pieces that are within one tile of the map or outside all.
+// Cuts each tile into pieces that are within one tile of the map or outside all its tiles.
 void Film::cut_along(const TileMap &map) {
     const std::size_t count = tiles_.size();
     for (std::size_t i = 0; i < count; ++i) {

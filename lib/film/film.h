@@ -54,7 +54,7 @@ public:
     // Throws PT_ERROR_INCOMPATIBLE if pixels of one tile of the grid over the bounds have different samples.
     TileSamples samples_by_tile() const;
 
-    // Returns the samples per pixel that hit all small lamps in view, or 0.
+    // Returns how many samples per pixel are enough for all small lamps in view; 0 without such lamps.
     std::uint32_t samples_for_lamps() const;
 
     std::optional<TileStep> plan(const TileSamples &samples, double target_error, std::uint64_t most);

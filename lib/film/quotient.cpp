@@ -20,7 +20,7 @@ Divisor::Divisor(std::uint32_t divisor, int exponent) :
     factor_(std::ldexp(1.0, exponent + std::countl_zero(divisor))) {}
 
 // Rounds to odd with at least 32 bits. Rounding the result to float then gives the nearest float (Boldo and Melquiond
-// 2008, Emulation of a FMA and correctly rounded sums: proved algorithms using rounding to odd).
+// 2008, Emulation of a FMA and correctly rounded sums).
 float Divisor::quotient(WideSum dividend) const {
     if (dividend == 0 || normal_ == 0)
         return 0.0F;

@@ -19,7 +19,7 @@ namespace pt {
 
 class TracePipelines {
 public:
-    // Most pipelines that are kept. Running work uses at most the last two.
+    // Largest number of pipelines that are kept. Running work uses at most the last two.
     static constexpr std::size_t most_kept = 8;
 
     explicit TracePipelines(vulkan::Device &device, KernelCode code = embedded_code());

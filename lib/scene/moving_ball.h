@@ -118,8 +118,8 @@ inline bool lies_apart(const MovingBall &ball, const MovingBall &surface) {
     return is_beside || is_within;
 }
 
-// The ball's word in the scene buffer's block `motion` (gpu_layout.h). If 1 / length of a capsule overflows, it becomes
-// a ball.
+// The ball's word in the scene buffer's block `motion` (gpu_layout.h). A capsule becomes a ball if 1 / length
+// overflows.
 inline glm::vec4 way_word(const MovingBall &ball) {
     const glm::vec3 rounded = glm::vec3(ball.way) + 0.0F; // -0 becomes +0, so that twins have equal words
     if (ball.kind == Kind::ball)

@@ -27,8 +27,8 @@ struct PreparedScene {
 
     explicit PreparedScene(Scene of);
 
-    // Makes a tree if there are at least tree_from visible spheres; by default if the tree is faster. Reuses the tree
-    // shape of `before` (may be NULL) if it fits.
+    // Makes a tree if there are at least tree_from visible spheres or, without tree_from, if a tree is faster. Reuses
+    // the tree shape of `before` (may be NULL) if it fits.
     PreparedScene(CheckedScene checked, std::optional<std::uint32_t> tree_from, const PreparedScene *before,
                   WorkProgress &progress);
 

@@ -1,4 +1,5 @@
-// The rays of a camera. A kind of projection is one file (perspective.cpp) and its directions in shaders/camera.glsl.
+// The rays of a camera. Each kind of projection has one file (perspective.cpp), and its directions in
+// shaders/camera.glsl.
 #pragma once
 
 #include "lib/base/rules.h"

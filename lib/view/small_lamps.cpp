@@ -38,8 +38,8 @@ double ahead(double way) {
 }
 
 // Returns the distance along a unit vector at which a ray from the origin enters a ball, or leaves it if it starts
-// inside; infinity if the ray misses. A moving ball counts at its first position, which never hides more than the whole
-// path does.
+// inside; infinity if the ray misses. Only the first position of a moving ball is used. It never hides more than the
+// whole path does.
 double way_to(const MovingBall &ball, const glm::dvec3 &direction) {
     const double along = glm::dot(ball.open, direction);
     const double beside = glm::length(ball.open - along * direction);

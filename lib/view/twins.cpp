@@ -19,7 +19,7 @@ constexpr double same_place = 0x1p-21;
 // narrower than a pixel in the image.
 constexpr double two_planes = 0x1p-8;
 
-// (1, sqrt(2), sqrt(3)) / sqrt(6), because spheres on a lattice have different coordinates along it.
+// (1, sqrt(2), sqrt(3)) / sqrt(6), because spheres on a lattice have different coordinates along this direction.
 constexpr glm::dvec3 generic_direction(0.40824829046386307, 0.5773502691896258, 0.7071067811865476);
 
 double tolerance(const SeenSphere &sphere) {

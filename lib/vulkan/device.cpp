@@ -152,7 +152,7 @@ Device::~Device() {
     if (!abandoned_ && comes_to_rest())
         return;
     // Releases the device instead of destroying it, because vkDestroyDevice may wait forever for running work (NVIDIA
-    // 580.159). Destroying the instance first crashes.
+    // 580.159). Destroying the instance before it would crash.
     pipeline_cache_.abandon();
     for (Submission &submission : submissions_) {
         submission.fence.release();

@@ -39,8 +39,8 @@ typedef struct pt_compare_info {
     uint32_t struct_size; /**< sizeof(pt_compare_info) */
     uint32_t width;       /**< pixels of both images, >= 1 */
     uint32_t height;      /**< pixels, >= 1; width * height <= 2^32 - 1 */
-    /** 0 for a single comparison. If images are compared repeatedly while samples are added: the number k of this
-     * comparison, from 1. Comparison k uses rate / (k (k + 1)); these sum to rate. */
+    /** 0 for a single comparison. Comparisons repeated while samples are added have the numbers k = 1, 2, ....
+     * Comparison k uses rate / (k (k + 1)), and these sum to rate. */
     uint32_t look;
     pt_compared_image first;  /**< the image to be judged */
     pt_compared_image second; /**< the reference; changes are fractions of its light */
