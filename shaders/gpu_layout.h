@@ -214,7 +214,7 @@ PT_CONSTANT FILM_WORDS = 14;
 // With COVERAGE one more plane follows both parts: the number of samples, also rejected ones, whose camera rays hit a
 // surface.
 PT_CONSTANT FILM_COVERED = FILM_PARTS * FILM_WORDS;
-// The most samples that an invocation may sum (film.glsl).
+// The largest number of samples that an invocation may sum (film.glsl).
 PT_CONSTANT FILM_MAX_GATHERED = 511;
 // Accepted components are in [0, 2^28) film units, so a sum of 2^32 samples is below 2^60.
 PT_CONSTANT FILM_MAX_EXPONENT = 28;
@@ -271,7 +271,7 @@ struct FrameConstants {
     uint is_first;    // 1: the part has no sample of these pixels; in fold.comp: the next dispatch has is_first
     uint first_sample;
     uint sample_count;
-    uint share;        // most samples of an invocation; invocations along y divide a pixel's samples
+    uint share;        // sample limit of an invocation; invocations along y divide a pixel's samples
 };
 
 PT_CONSTANT ANY_COUNT = 0xffffffffu;

@@ -101,7 +101,7 @@ pt_accumulate_info validated_accumulate(const pt_accumulate_info *info, bool may
 }
 
 // Logs once that a context in use was not freed; the log function may call pt_destroy itself. Logs nothing in a forked
-// child, where the log's lock may be held by a thread that does not exist there.
+// child, where the log's lock may be held by a thread that the child lacks.
 void refuse_to_destroy(pt_context &context, const char *reason) noexcept {
     const bool told = refusal.context == &context || context.in_use.not_of_this_process();
     refusal = {&context, reason};

@@ -232,8 +232,8 @@ private:
         });
     }
 
-    // Most instructions have their result in word 2. Other instructions have the result of another kept instruction
-    // there, which is harmless.
+    // Most instructions have their result in word 2. The word 2 of other instructions is the result of another kept
+    // instruction, which is harmless.
     void note_result(Words instruction, std::uint32_t block) {
         const Opcode opcode = opcode_of(instruction);
         if (block != 0 && !fact(block).is_reached)

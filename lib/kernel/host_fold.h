@@ -20,8 +20,8 @@ public:
     HostFold &operator=(const HostFold &) = delete;
 
     // The film must be in host memory, and no submission may be running. May be called once. Folds nothing and returns
-    // false if the part to be added has a word other than 0 in its rare planes. The next submission expects zeros
-    // there.
+    // false if the part to be added has a word other than 0 in its rare planes, where the next submission expects
+    // zeros.
     bool fold(std::vector<PixelRange> pixels);
 
     // Must be called after the submission.

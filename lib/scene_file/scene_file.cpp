@@ -57,7 +57,7 @@ constexpr std::array<std::array<std::string_view, 2>, 6> renamed{{{"camera.targe
                                                                   {"render.height", "film.height"},
                                                                   {"accumulate.sample_count", "render.spp"}}};
 
-// Capsules, and single spheres with looks, are also arrays (SceneFile::scene()). These arrays come before items with
+// Capsules, and single spheres with a Look, are also arrays (SceneFile::scene()). These arrays come before items with
 // many spheres.
 JsonPath path_in_arrays(const SceneFile &scene, const BrokenRule &rule) {
     const std::size_t of_spheres = scene.looks.empty() ? 0 : 1;

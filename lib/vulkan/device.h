@@ -101,7 +101,7 @@ public:
     // Waits until the given time at most. Returns whether finish() would return at once.
     bool is_done(Ticket ticket, Clock::time_point until);
 
-    // Notes which submissions have ended, so that finish() knows their times better.
+    // Notes which submissions have ended, so that finish() returns more exact times.
     void look();
 
     bool is_at_rest() const;

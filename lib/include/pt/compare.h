@@ -57,7 +57,7 @@ typedef struct pt_compared_region {
     double light[3];      /**< mean of the second image */
     double difference[3]; /**< mean of the first image minus mean of the second image */
     double deviation[3];  /**< standard deviation of the difference */
-    /** Upper bound of the probability that equal light differs as much in some region of this size. */
+    /** Upper bound of the probability that equal light gives a difference this large in some region of this size. */
     double probability;
     /** Smallest change of the region's light, a fraction, that the test finds with 99% probability; INFINITY: it finds
      * no change. */

@@ -22,7 +22,7 @@ typedef struct pt_broken_rule {
      * "camera", "render", "accumulate", "image", "stats", "create", "vulkan" or "denoise") or of another argument. */
     const char *subject;
     const char *member; /**< the subject's member, or "center.type"; "" for a rule about the argument itself */
-    const char *with;   /**< other terms of the value, for example "* height"; otherwise "" */
+    const char *with;   /**< other factors of the value, for example "* height"; otherwise "" */
     const char *value;  /**< the value, such as "-1" or "NULL" */
     const char *rule;   /**< the rule, such as "must be > 0" */
 } pt_broken_rule;
