@@ -15,7 +15,7 @@
 
 namespace cli {
 
-// `attempt` counts the earlier names, which were taken.
+// `attempt` is the number of earlier names, which already existed.
 std::string temporary_name(int attempt);
 
 void remove_abandoned(const std::filesystem::path &folder);

@@ -1,4 +1,4 @@
-// Files that the program contains: the start, what it includes, and the course's scenes.
+// Files that the program contains: the kernel that students start with, its includes, and the course's scenes.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Pictures of a student's kernel as measurements.
+// Measurements of a student's kernel by its pictures.
 #pragma once
 
 #include "cli/base/context.h"

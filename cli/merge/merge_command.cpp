@@ -49,7 +49,7 @@ void check(const MergeOptions &options) {
     check_names(output, parts);
 }
 
-// To report all faults, reads all parts before it fails.
+// Reads all parts before it fails, to report all faults.
 std::unique_ptr<FilmHandle> sum_of(const std::vector<std::string> &parts) {
     std::unique_ptr<FilmHandle> sum;
     std::optional<ExitCode> failed;

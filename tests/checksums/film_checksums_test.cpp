@@ -121,7 +121,8 @@ std::vector<std::string> lines_of(const std::string &device) {
     return lines;
 }
 
-// A line of the file names a scene and a sampler. PT_TEST_MANY renders every line with every context, instead of one.
+// A line of the file names a scene and a sampler. PT_TEST_MANY renders every line with every context instead of a
+// single one.
 TEST_F(FilmChecksums, AreThoseOfBefore) {
     const std::vector<std::string> expected = lines_of(device_name());
     if (expected.empty())

@@ -143,7 +143,7 @@ class MaterialsPage(CommandLineTest):
                  "spheres": [{"center": [0, 0, 0], "radius": 1000, "material": "sky"}],
                  "planes": [{"normal": [0, 1, 0], "offset": 0, "material": "floor"}]}))
             self.assertEqual(self.values("--spp", "1"), [[SRGB[radiance]] * 9] * 2)
-            # A sample's standard error is 0.9 of the value, and 1% of the value is 0.8 steps. The tolerance is more
+            # A sample's standard error is 0.9 of the value, and 1% of the value is 0.8 steps of 1/255. The tolerance of 2 steps is more
             # than 4 standard errors of the mean.
             for row in self.values("--spp", "65536", "--estimator", "uniform"):
                 for value in row:

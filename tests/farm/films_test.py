@@ -164,7 +164,7 @@ class Farm(unittest.TestCase):
                     if killed is not None:
                         address = self.cluster.workers[killed].worker_address
                         os.kill(self.process_of(killed), signal.SIGKILL)
-                        while address in self.cluster.scheduler.workers:  # Its parts must count as lost, not as late.
+                        while address in self.cluster.scheduler.workers:  # The worker's parts must count as lost, not as late.
                             time.sleep(0.01)
                         time.sleep(LOOK_SECONDS)
                     open(go, "w").close()

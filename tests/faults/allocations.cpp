@@ -19,7 +19,7 @@ std::atomic<long> live{0}; // atomic: a driver's thread may free memory of the l
 std::atomic<long> live_bytes{0};
 long most_bytes = 0;
 
-// Precedes the memory of each allocation, which it keeps aligned.
+// Precedes the memory of each allocation, and keeps it aligned.
 struct alignas(std::max_align_t) Header {
     std::size_t size;
     bool of_library;

@@ -39,7 +39,7 @@ class Paper(unittest.TestCase):
         self.assertEqual(Options(width="8.5cm").pixel_width, 1004)
 
     def test_words_have_their_size(self):
-        """Twice the dpi and the font give the same layout with twice the pixels. A larger font takes a wider strip."""
+        """Twice the dpi and the font give the same layout with twice the pixels. A larger font needs a wider strip for the color bar."""
         def strip(**options):
             figure = self.figure(width="6cm", color="v", colorbar=True, **options)
             return figure.picture_size[0] - figure.shape[1]

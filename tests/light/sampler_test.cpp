@@ -72,7 +72,7 @@ TEST_P(Sampler, IsRandomBeyondTheTable) {
     EXPECT_EQ(take(GetParam(), request) == take(PT_SAMPLER_RANDOM, request), GetParam() == PT_SAMPLER_RANDOM);
 }
 
-// The random numbers have no table. B i + b may exceed 2^32.
+// The random numbers have no table, so the sample index B i + b of branch b of B may exceed 2^32.
 TEST(SamplerRandom, BranchesAreSamplesOfTheirOwn) {
     constexpr std::uint32_t branches = 4;
     Request request;
@@ -111,7 +111,7 @@ TEST(SamplerHalton, IsTheRadicalInverseInEveryPixel) {
     }
 }
 
-// After the shared blocks, branch b of sample i has the numbers of sample B i + b.
+// After the shared blocks, branch b of B has in sample i the numbers of sample B i + b.
 TEST(SamplerHalton, OfABranchIsTheRadicalInverseOfASampleOfItsOwn) {
     constexpr std::uint32_t branches = 4;
     Request request;

@@ -77,8 +77,8 @@ glm::dvec3 middle_of(const std::vector<DrawnSpot> &drawn, std::uint32_t surface)
     return glm::normalize(sum);
 }
 
-// Compares the mean of 1 / (density density_error) over a cone within the surface with the cone's solid angle. Returns
-// the difference in standard errors.
+// Compares the solid angle of a cone within the surface with the mean of 1 / (density * density_error) over the cone.
+// Returns the difference in standard errors.
 double solid_angle_deviate(const std::vector<DrawnSpot> &drawn, std::uint32_t surface, double radius,
                            double density_error) {
     const glm::dvec3 middle = middle_of(drawn, surface);

@@ -70,7 +70,7 @@ class Sum:
 
 
 def _give_back() -> None:
-    """Returns freed memory to the system. For each thread glibc keeps some, together more than a film."""
+    """Returns freed memory to the system. glibc keeps some freed memory for each thread, in total more than a film."""
     with contextlib.suppress(AttributeError, OSError):
         ctypes.CDLL(None).malloc_trim(0)
 

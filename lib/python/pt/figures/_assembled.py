@@ -204,7 +204,7 @@ def _are_numbers(labels: Array) -> bool:
 
 
 def _colors(columns: Mapping[str, Array], chosen: dict[str, str], is_text: bool, notes: list[str]) -> Array | None:
-    """The type of floats and unsigned integers decides the scale. For other integers and for text, the largest number does."""
+    """For floats and unsigned integers, the type decides the scale of colors. For other integers and for text, the largest number does."""
     choices = (tuple(chosen.get(key, key) for key in _COLORS[0]), *_COLORS)
     found = next((names for names in ([first_of(columns, (name,)) for name in choice] for choice in choices)
                   if None not in names[:3]), None)

@@ -26,7 +26,7 @@ def bar_length(text: str | float) -> float:
 
 def with_scale_bar(pixels: npt.NDArray[Any], text: str | float, camera: Camera, scale: float, ink: Any, dpi: float, font: float
                    ) -> npt.NDArray[Any]:
-    """`scale` is in scene units per unit of the data, `font` in points. The bar is exact to a share of a pixel."""
+    """`scale` is in scene units per unit of the data, `font` in points. The bar is exact to a fraction of a pixel."""
     height, width = pixels.shape[:2]
     assert camera.vertical_extent is not None
     length = bar_length(text) * scale * height / camera.vertical_extent

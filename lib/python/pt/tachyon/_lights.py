@@ -18,8 +18,7 @@ LEAST_SHARE = 1 / 3  # a bright background dims lights at most to this fraction;
 
 @dataclass(frozen=True)
 class Light:
-    """A light with attenuation (a, b, c) gives a white matt surface that faces it at distance d the radiance
-    color / (a + b d + c d^2)."""
+    """A white matt surface at distance d that faces a light with attenuation (a, b, c) has the radiance color / (a + b d + c d^2)."""
 
     file_place: str
     color: Triple
@@ -85,9 +84,9 @@ def dimmed(lights: list[Light], background: Triple) -> list[Light]:
 def lamps_of(lights: list[Light], around: Surroundings) -> tuple[list[Sphere], list[str]]:
     """Returns a ball for each light, and warnings about lights without one.
 
-    A ball of radius r and radiance L gives a facing white surface at distance d the radiance L (r / d)^2. L is chosen so
-    that the camera's target gets the light's radiance. A light without a radius gets a hidden lamp of 1/50 of its
-    distance. A radius is at most half of the distance to the nearest surface and, if visible, to the camera.
+    A white surface at distance d that faces a ball of radius r and radiance L has the radiance L (r / d)^2. L is chosen so that the
+    camera's target gets the light's radiance. A light without a radius gets a hidden lamp of 1/50 of its distance. A radius is at most half
+    of the distance to the nearest surface and, if visible, to the camera.
     """
     extent = around.extent(lights)
     lamps: list[Sphere] = []

@@ -70,7 +70,7 @@ class Lines:
     def close(self) -> None:
         self._raw.close()
 
-    def __del__(self) -> None:  # frames keep the file open until then
+    def __del__(self) -> None:  # frames keep the file open
         if hasattr(self, "_raw") and self._raw is not sys.stdin.buffer:
             self.close()
 
