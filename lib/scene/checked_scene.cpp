@@ -23,25 +23,6 @@ glm::vec3 color(const float (&components)[3]) {
     return {components[0], components[1], components[2]};
 }
 
-// float32 must hold products of two colors: 1e36 < 2^128.
-const char *color_rule(double value) {
-    if (!std::isfinite(value))
-        return "must be finite";
-    if (value < 0.0)
-        return "must be >= 0";
-    return value <= 1e18 ? nullptr : "must be <= 1e18";
-}
-
-// A lobe exp(-n a^2 / 2) falls to 1 / e at the angle a = sqrt(2 / n). At this angle, errors d = 2^-23 of float32 unit
-// vectors change the exponent by n a d = sqrt(2 n) d, which is 0.5% for n = 1e9.
-const char *glossiness_rule(double value) {
-    if (!std::isfinite(value))
-        return "must be finite";
-    if (value < 0.0)
-        return "must be >= 0";
-    return value <= 1e9 ? nullptr : "must be <= 1e9";
-}
-
 // The square of an unscaled normal may overflow.
 Plane normalized(const pt_plane &plane) {
     const auto [normal, exponent] = scaled(vector(plane.normal));

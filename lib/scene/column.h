@@ -27,29 +27,30 @@ Element element(const pt_column &column, std::size_t index) {
 
 static_assert(sizeof(glm::vec3) == 3 * sizeof(float) && sizeof(glm::dvec3) == 3 * sizeof(double));
 
-// Calls use(read). read(index) is a float or double.
-template <typename Use>
-decltype(auto) with_numbers(const pt_column &column, Use use) {
+// Calls use(read). read(index) is a value of float or double.
+template <int components, typename Use>
+void with_real(const pt_column &column, Use use) {
+    using Float = std::conditional_t<components == 1, float, glm::vec3>;
+    using Double = std::conditional_t<components == 1, double, glm::dvec3>;
     if (column.type == PT_TYPE_FLOAT32)
-        return use([&column](std::size_t index) { return element<float>(column, index); });
-    return use([&column](std::size_t index) { return element<double>(column, index); });
+        use([&column](std::size_t index) { return element<Float>(column, index); });
+    else
+        use([&column](std::size_t index) { return element<Double>(column, index); });
 }
 
-template <typename Use>
-decltype(auto) with_vectors(const pt_column &column, Use use) {
-    if (column.type == PT_TYPE_FLOAT32)
-        return use([&column](std::size_t index) { return element<glm::vec3>(column, index); });
-    return use([&column](std::size_t index) { return element<glm::dvec3>(column, index); });
-}
-
-template <typename Use>
-decltype(auto) with_colors(const pt_column &column, Use use) {
+template <int components, typename Use>
+void with_color(const pt_column &column, Use use) {
     if (column.type != PT_TYPE_SRGB8)
-        return with_vectors(column, use);
-    return use([&column](std::size_t index) {
+        return with_real<components>(column, use);
+    use([&column](std::size_t index) {
         const auto bytes = element<glm::u8vec3>(column, index);
         return glm::vec3(linear_from_srgb(bytes.r), linear_from_srgb(bytes.g), linear_from_srgb(bytes.b));
     });
+}
+
+template <int, typename Use>
+void with_index(const pt_column &column, Use use) {
+    use([&column](std::size_t index) { return element<std::uint32_t>(column, index); });
 }
 
 } // namespace pt

@@ -18,6 +18,7 @@ enum class Kind : std::uint8_t { ball = gpu::KIND_BALL, capsule = gpu::KIND_CAPS
 class Kinds {
 public:
     void add(Kind kind) { bits_ |= static_cast<std::uint32_t>(kind); }
+    void add(Kinds others) { bits_ |= others.bits_; }
     std::uint32_t bits() const { return bits_; }
     bool have_ways() const { return bits_ > gpu::KIND_BALL; }
 

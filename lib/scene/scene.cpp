@@ -25,10 +25,11 @@ class ColoredMaterials {
 public:
     explicit ColoredMaterials(std::vector<Material> &materials) : materials_(materials) {}
 
-    std::uint32_t index_of(std::uint32_t material, const glm::vec3 &color) {
+    std::uint32_t index_of(std::uint32_t material, const Look &look) {
         Material colored = materials_[material];
-        colored.diffuse *= color;
-        if (colored.diffuse == materials_[material].diffuse)
+        for (const LookColumn &each : look_columns)
+            each.change(colored, look);
+        if (key_of(colored) == key_of(materials_[material]))
             return material;
         if (indices_.empty())
             for (std::uint32_t i = 0; i < materials_.size(); ++i)
@@ -52,8 +53,8 @@ Scene owned_scene(CheckedScene checked, const std::vector<std::uint32_t> *only) 
     Scene owned{std::move(checked.materials), {}, std::move(checked.planes), {starts.begin(), starts.end()}};
     ColoredMaterials colored(owned.materials);
     WorkProgress nobody;
-    const auto take = [&](std::size_t, Sphere sphere, const glm::vec3 &color) {
-        sphere.material = colored.index_of(sphere.material, color);
+    const auto take = [&](std::size_t, Sphere sphere) {
+        sphere.material = colored.index_of(sphere.material, sphere.look);
         owned.spheres.push_back(sphere);
     };
     if (only == nullptr) {

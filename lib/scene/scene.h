@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lib/base/digest.h"
+#include "lib/scene/material.h"
 #include "lib/scene/moving_ball.h"
 #include "shaders/gpu_layout.h"
 
@@ -8,6 +9,7 @@
 
 #include <glm/glm.hpp>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -15,26 +17,15 @@
 
 namespace pt {
 
-struct Material {
-    glm::vec3 diffuse;
-    glm::vec3 specular;
-    glm::vec3 emission;
-    float glossiness;
-    bool hidden = false;
-};
-
-inline bool emits(const Material &material) {
-    return material.emission != glm::vec3(0.0F);
-}
-
-inline bool is_glossy(const Material &material) {
-    return material.specular != glm::vec3(0.0F);
-}
-
 // Opacities are in steps of 1 / TREE_OPACITY_STEPS. If all spheres of a scene are opaque, all have no_opacity.
 inline constexpr std::int16_t no_opacity = -1;
 inline constexpr auto opaque = static_cast<std::int16_t>(gpu::TREE_OPACITY_STEPS);
 inline constexpr double least_opaque = 1.0 - 0.5 / gpu::TREE_OPACITY_STEPS;
+
+template <typename Real>
+std::int16_t opacity_steps(Real opacity) {
+    return static_cast<std::int16_t>(std::lround(opacity * opaque));
+}
 
 inline double passing_share(std::int16_t opacity) {
     return opacity == no_opacity ? 0.0 : 1.0 - static_cast<double>(opacity) / gpu::TREE_OPACITY_STEPS;
@@ -47,6 +38,12 @@ struct Sphere {
     std::uint32_t material;
     Kind kind = Kind::ball;
     std::int16_t opacity = no_opacity;
+    Look look{};
+
+    void make_capsule(const glm::dvec3 &end) {
+        kind = Kind::capsule;
+        motion = end - center;
+    }
 
     bool is_translucent() const { return opacity != no_opacity && opacity < opaque; }
 

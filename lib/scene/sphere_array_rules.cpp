@@ -3,12 +3,12 @@
 #include "lib/base/struct_size.h"
 #include "lib/scene/column.h"
 #include "lib/scene/scene.h"
+#include "lib/scene/sphere_columns.h"
 
 #include <algorithm>
-#include <cmath>
-#include <initializer_list>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 namespace pt {
 
@@ -32,11 +32,6 @@ constexpr ElementType index_type{[](std::uint32_t type) { return type == PT_TYPE
 constexpr ElementType color_type{[](std::uint32_t type) { return real_type.is(type) || type == PT_TYPE_SRGB8; },
                                  "must be PT_TYPE_FLOAT32 (1), PT_TYPE_FLOAT64 (2) or PT_TYPE_SRGB8 (4)"};
 
-// Tests abs(value), because branches on the sign would be mispredicted.
-bool is_coordinate(double value) {
-    return is_length(std::abs(value));
-}
-
 // Lamps are sampled by the cone around a ball, so capsules must not emit.
 const char *const dark_rule = "must be a material without emission, because capsules cannot be lamps";
 
@@ -51,11 +46,15 @@ bool is_plain(const pt_material &material) {
     return is_dark(material) && (material.flags & PT_MATERIAL_HIDDEN_FROM_CAMERA) == 0;
 }
 
-template <typename Vector>
-const char *broken(const Vector &value, Rule rule) {
-    const char *x = rule(value.x);
-    const char *y = rule(value.y);
-    return x ? x : y ? y : rule(value.z);
+template <Rule rule, typename Value>
+const char *broken(const Value &value) {
+    if constexpr (std::is_floating_point_v<Value>)
+        return rule(value);
+    else {
+        const char *x = rule(value.x);
+        const char *y = rule(value.y);
+        return x ? x : y ? y : rule(value.z);
+    }
 }
 
 class ColumnChecker;
@@ -78,43 +77,38 @@ public:
         materials_(materials),
         progress_(progress) {}
 
-    template <bool (*holds)(double), Rule rule>
-    void vectors(const ColumnKind &kind) const {
-        with_vectors(array_.*kind.column, [&](auto read) {
-            check(
-                kind.name, elements(array_.*kind.column), read,
-                [](const auto &value) { return holds(value.x) && holds(value.y) && holds(value.z); },
-                [](const auto &value) { return broken(value, rule); });
-        });
+    template <Rule rule, int components>
+    void values(const ColumnKind &kind) const {
+        const pt_column &column = array_.*kind.column;
+        if constexpr (rule == nullptr)
+            materials();
+        else if (column.type != PT_TYPE_SRGB8)
+            with_real<components>(column, [&](auto read) {
+                check(
+                    kind.name, elements(column), read, [](const auto &value) { return !broken<rule>(value); },
+                    [](const auto &value) { return broken<rule>(value); });
+            });
+        if (kind.column == &pt_sphere_array::end)
+            ends();
+        if (kind.column == &pt_sphere_array::opacity)
+            opacities();
     }
 
-    template <bool (*holds)(double), Rule rule>
-    void numbers(const ColumnKind &kind) const {
-        with_numbers(array_.*kind.column,
-                     [&](auto read) { check(kind.name, elements(array_.*kind.column), read, holds, rule); });
-    }
-
-    void colors(const ColumnKind &kind) const {
-        if (array_.color.type != PT_TYPE_SRGB8)
-            vectors<is_share, share_rule>(kind);
-    }
-
-    void materials(const ColumnKind & /*kind*/) const {
+    void materials() const {
         check_materials([&](std::uint32_t material) { return material < materials_.size(); },
                         material_rule(static_cast<std::uint32_t>(materials_.size())));
     }
 
-    void ends(const ColumnKind &kind) const {
-        vectors<is_coordinate, length_rule>(kind);
+private:
+    void ends() const {
         check_materials(
             [&](std::uint32_t material) { return material >= materials_.size() || is_dark(materials_[material]); },
             dark_rule);
     }
 
-    void opacities(const ColumnKind &kind) const {
-        numbers<is_share, share_rule>(kind);
+    void opacities() const {
         constexpr std::uint32_t none = UINT32_MAX;
-        with_numbers(array_.opacity, [&](auto opacity) {
+        with_real<1>(array_.opacity, [&](auto opacity) {
             check(
                 "material", array_.count,
                 [&](std::size_t i) { return opacity(i) >= least_opaque ? none : material(i); },
@@ -123,7 +117,6 @@ public:
         });
     }
 
-private:
     std::size_t elements(const pt_column &column) const { return column.stride_bytes == 0 ? 1 : array_.count; }
 
     std::uint32_t material(std::size_t i) const {
@@ -158,16 +151,10 @@ private:
     WorkProgress &progress_;
 };
 
-const ColumnKind kinds[] = {
-    {"center", &pt_sphere_array::center, 3, real_type, true, &ColumnChecker::vectors<is_coordinate, length_rule>},
-    {"radius", &pt_sphere_array::radius, 1, real_type, true,
-     &ColumnChecker::numbers<is_positive_length, positive_length_rule>},
-    {"motion", &pt_sphere_array::motion, 3, real_type, false, &ColumnChecker::vectors<is_coordinate, length_rule>},
-    {"material", &pt_sphere_array::material, 1, index_type, false, &ColumnChecker::materials},
-    {"color", &pt_sphere_array::color, 3, color_type, false, &ColumnChecker::colors},
-    {"end", &pt_sphere_array::end, 3, real_type, false, &ColumnChecker::ends},
-    {"opacity", &pt_sphere_array::opacity, 1, real_type, false, &ColumnChecker::opacities},
-};
+#define PT_KIND(name, component, components, types, rule, is_needed, initial, set)                                     \
+    {#name, &pt_sphere_array::name, components, types##_type, is_needed, &ColumnChecker::values<rule, components>},
+const ColumnKind kinds[] = {PT_SPHERE_COLUMNS(PT_KIND)};
+#undef PT_KIND
 
 std::uint32_t component_bytes(std::uint32_t type) {
     if (type == PT_TYPE_FLOAT64)
@@ -256,7 +243,7 @@ void check_sphere_arrays(std::span<const pt_sphere_array> arrays, std::span<cons
             continue;
         const ColumnChecker checker(subject, arrays[i], materials, progress);
         for (const ColumnKind &kind : kinds)
-            if (is_there(arrays[i].*kind.column) || kind.check == &ColumnChecker::materials)
+            if (is_there(arrays[i].*kind.column) || kind.column == &pt_sphere_array::material)
                 (checker.*kind.check)(kind);
     }
 }

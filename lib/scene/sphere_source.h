@@ -26,24 +26,17 @@ public:
 
     std::size_t size() const { return starts_.back(); }
 
-    bool has_colors() const { return has_colors_; }
+    // Whether an array with spheres has the column.
+    bool has(pt_column pt_sphere_array::*column) const;
 
     bool has_opacities() const { return has_opacities_; }
 
-    bool are_mere_balls() const { return others_count_ == 0; }
-
-    // Returns the indices of spheres that are no balls, ascending. Returns none if there are more than `most`.
-    std::vector<std::uint32_t> other_kinds(std::size_t most) const;
+    std::uint64_t capsule_count() const { return capsule_count_; }
 
     // for_each() is faster for many spheres.
     Sphere operator[](std::uint32_t index) const;
-    glm::vec3 color(std::uint32_t index) const;
 
-    // Each sphere is a unit of work, and so is each array with a single material.
-    void mark_materials(std::vector<bool> &used, WorkProgress &progress) const;
-
-    // Calls use(index, sphere, color) in order. `color` multiplies the material's diffuse. Each sphere is a unit of
-    // work.
+    // Calls use(index, sphere) in order. Each sphere is a unit of work.
     template <typename Use>
     void for_each(WorkProgress &progress, Use use) const {
         std::array<std::uint32_t, chunk_size> indices;
@@ -71,30 +64,25 @@ private:
     template <typename From, typename Use>
     void for_each_read(std::size_t all, WorkProgress &progress, From from, Use use) const {
         std::array<Sphere, chunk_size> spheres;
-        std::array<glm::vec3, chunk_size> colors;
-        colors.fill(glm::vec3(1.0F));
+        const pt_sphere_array *before = nullptr;
         for (std::size_t first = 0; first < all; first += chunk_size) {
             const std::size_t count = std::min(chunk_size, all - first);
-            read(from(first, count), std::span(spheres).first(count));
-            if (has_colors_)
-                read_colors(from(first, count), std::span(colors).first(count));
+            before = read(from(first, count), std::span(spheres).first(count), before);
             for (std::size_t i = 0; i < count; ++i)
-                use(static_cast<std::uint32_t>(first + i), spheres[i], colors[i]);
+                use(static_cast<std::uint32_t>(first + i), spheres[i]);
             progress.add(count);
         }
     }
 
-    void read(std::span<const std::uint32_t> indices, std::span<Sphere> spheres) const;
-    void read_colors(std::span<const std::uint32_t> indices, std::span<glm::vec3> colors) const;
-
-    template <typename Element, typename Read>
-    void read_parts(std::span<const std::uint32_t> indices, std::span<Element> elements, Read read_part) const;
+    // Returns the array if all spheres are in one. If it is `before`, spheres must have its values, of which only those
+    // with columns change.
+    const pt_sphere_array *read(std::span<const std::uint32_t> indices, std::span<Sphere> spheres,
+                                const pt_sphere_array *before) const;
 
     std::vector<pt_sphere_array> parts_;
     std::vector<std::uint32_t> starts_;
-    bool has_colors_;
     bool has_opacities_;
-    std::size_t others_count_ = 0;
+    std::uint64_t capsule_count_ = 0;
 };
 
 } // namespace pt

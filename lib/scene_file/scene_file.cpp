@@ -16,40 +16,6 @@
 namespace pt {
 namespace {
 
-bool is_opaque(const Look &look) {
-    return look.opacity == 1.0F;
-}
-
-void put_looks(pt_sphere_array &array, const Look &first, std::uint32_t stride, bool are_opaque) {
-    array.color = {&first.color, stride, PT_TYPE_FLOAT32};
-    if (!are_opaque)
-        array.opacity = {&first.opacity, stride, PT_TYPE_FLOAT32};
-}
-
-pt_sphere_array array_of(std::span<const pt_sphere> spheres, std::span<const Look> looks) {
-    constexpr auto stride = static_cast<std::uint32_t>(sizeof(pt_sphere));
-    auto array = sized<pt_sphere_array>();
-    array.count = static_cast<std::uint32_t>(spheres.size());
-    array.center = {&spheres[0].center, stride, PT_TYPE_FLOAT64};
-    array.radius = {&spheres[0].radius, stride, PT_TYPE_FLOAT64};
-    array.motion = {&spheres[0].motion, stride, PT_TYPE_FLOAT64};
-    array.material = {&spheres[0].material, stride, PT_TYPE_UINT32};
-    put_looks(array, looks[0], sizeof looks[0], std::ranges::all_of(looks, is_opaque));
-    return array;
-}
-
-pt_sphere_array array_of(std::span<const Capsule> capsules) {
-    constexpr auto stride = static_cast<std::uint32_t>(sizeof(Capsule));
-    auto array = sized<pt_sphere_array>();
-    array.count = static_cast<std::uint32_t>(capsules.size());
-    array.center = {&capsules[0].ball.center, stride, PT_TYPE_FLOAT64};
-    array.radius = {&capsules[0].ball.radius, stride, PT_TYPE_FLOAT64};
-    array.material = {&capsules[0].ball.material, stride, PT_TYPE_UINT32};
-    array.end = {&capsules[0].end, stride, PT_TYPE_FLOAT64};
-    put_looks(array, capsules[0].look, stride, std::ranges::all_of(capsules, is_opaque, &Capsule::look));
-    return array;
-}
-
 constexpr std::array<std::array<std::string_view, 2>, 6> renamed{{{"camera.target", "camera.look_at"},
                                                                   {"camera.shutter_open", "camera.shutter[0]"},
                                                                   {"camera.shutter_close", "camera.shutter[1]"},
@@ -57,11 +23,10 @@ constexpr std::array<std::array<std::string_view, 2>, 6> renamed{{{"camera.targe
                                                                   {"render.height", "film.height"},
                                                                   {"accumulate.sample_count", "render.spp"}}};
 
-// Capsules, and single spheres with a Look, are also arrays (SceneFile::scene()). These arrays come before items with
-// many spheres.
+// Single spheres and capsules may be arrays, too. They come before items that are many.
 JsonPath path_in_arrays(const SceneFile &scene, const BrokenRule &rule) {
-    const std::size_t of_spheres = scene.looks.empty() ? 0 : 1;
-    const std::size_t of_single = of_spheres + (scene.capsules.empty() ? 0 : 1);
+    const std::size_t of_spheres = scene.sphere_items.items.empty() ? 0 : 1;
+    const std::size_t of_single = of_spheres + (scene.capsules.items.empty() ? 0 : 1);
     const auto array = static_cast<std::size_t>(rule.index);
     const auto element = static_cast<std::size_t>(std::max(rule.component, 0));
     const bool is_single = array < of_single;
@@ -121,18 +86,10 @@ const SceneOverride *find_override(const SceneFile &scene, const JsonPath &path)
 
 } // namespace
 
-void SceneFile::add_sphere(const pt_sphere &sphere, const std::optional<Look> &look) {
-    if (look && looks.empty())
-        looks.resize(spheres.size());
-    spheres.push_back(sphere);
-    if (!looks.empty() || look)
-        looks.push_back(look.value_or(Look{}));
-}
-
 pt_scene SceneFile::scene() const {
     auto scene = sized<pt_scene>();
     scene.material_count = static_cast<std::uint32_t>(materials.size());
-    scene.sphere_count = looks.empty() ? static_cast<std::uint32_t>(spheres.size()) : 0;
+    scene.sphere_count = static_cast<std::uint32_t>(spheres.size());
     scene.plane_count = static_cast<std::uint32_t>(planes.size());
     scene.materials = materials.data();
     scene.spheres = spheres.data();
@@ -142,10 +99,9 @@ pt_scene SceneFile::scene() const {
 
 std::vector<pt_sphere_array> SceneFile::sphere_arrays() const {
     std::vector<pt_sphere_array> arrays;
-    if (!looks.empty())
-        arrays.push_back(array_of(spheres, looks));
-    if (!capsules.empty())
-        arrays.push_back(array_of(capsules));
+    for (const SphereItems *single : {&sphere_items, &capsules})
+        if (!single->items.empty())
+            arrays.push_back(single->array());
     std::transform(sphere_columns.begin(), sphere_columns.end(), std::back_inserter(arrays),
                    [](const SphereColumns &each) { return each.spheres(); });
     return arrays;

@@ -7,11 +7,11 @@
 #include "lib/scene_file/animation.h"
 #include "lib/scene_file/json_value.h"
 #include "lib/scene_file/sphere_columns.h"
+#include "lib/scene_file/sphere_items.h"
 
 #include <pt/display.h>
 #include <pt/pt.h>
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -42,17 +42,7 @@ constexpr pt_display_info default_display() {
     return display;
 }
 
-struct Look {
-    std::array<float, 3> color{1.0F, 1.0F, 1.0F};
-    float opacity = 1.0F;
-};
-
-struct Capsule {
-    pt_sphere ball;
-    std::array<double, 3> end;
-    Look look;
-};
-
+// The source of a value that libpt refuses.
 struct RuleSource {
     std::string message;  // "scene.json:7: materials.gold.glossiness = -1: must be >= 0"
     std::size_t line = 0; // 0: the value is not in the file
@@ -67,9 +57,9 @@ struct SceneFile {
     std::vector<std::string> material_names;
     std::vector<pt_material> materials;
     std::vector<std::uint32_t> used_materials; // ascending
-    std::vector<pt_sphere> spheres;
-    std::vector<Look> looks; // as many as spheres, or empty
-    std::vector<Capsule> capsules;
+    std::vector<pt_sphere> spheres;            // empty if sphere_items is not
+    SphereItems sphere_items;                  // if some sphere has more than a pt_sphere
+    SphereItems capsules;
     std::vector<pt_plane> planes;
     std::vector<SphereColumns> sphere_columns;
     std::vector<AnimatedValue> animation;
@@ -78,10 +68,8 @@ struct SceneFile {
     std::optional<std::uint32_t> sample_count;
     pt_display_info display = default_display();
 
-    void add_sphere(const pt_sphere &sphere, const std::optional<Look> &look);
-
-    // The result points into this object. The arrays are, in this order, single spheres if any has a look, capsules,
-    // and items of many spheres.
+    // Points into this object. Arrays have single spheres if pt_sphere lacks a property of any, then capsules, then
+    // each item that is many.
     pt_scene scene() const;
     std::vector<pt_sphere_array> sphere_arrays() const;
     std::size_t

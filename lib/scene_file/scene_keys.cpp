@@ -3,6 +3,7 @@
 #include "lib/scene_file/enumerations.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <numbers>
 
@@ -48,10 +49,10 @@ constexpr ValueRule one_of(std::string_view kind, std::span<const std::string_vi
 constexpr double largest_uint32 = std::numeric_limits<std::uint32_t>::max();
 constexpr double largest_uint64 = 0x1p64;
 
-template <typename Number, std::size_t Count>
-void put(Value value, Number (&target)[Count]) {
-    for (std::size_t i = 0; i < Count; ++i)
-        target[i] = (value.is_array() ? value[i] : value).template get<Number>();
+template <typename Numbers>
+void put(Value value, Numbers &target) {
+    for (std::size_t i = 0; i < std::size(target); ++i)
+        (value.is_array() ? value[i] : value).get_to(target[i]);
 }
 
 constexpr bool required = true;
@@ -157,62 +158,36 @@ constexpr std::array material_keys{
         [](Item item, Value value) { item.material.flags = value.get<bool>() ? PT_MATERIAL_HIDDEN_FROM_CAMERA : 0; }},
 };
 
-Look &look_of(Item item) {
-    return item.look ? *item.look : item.look.emplace();
+template <auto member, pt_column pt_sphere_array::*column>
+constexpr SceneKey column_key(std::string_view name, const ValueRule &rule, std::string_view words,
+                              std::string_view initial, bool is_required) {
+    const auto store = [](Item item, Value value) { put(value, item.sphere.*member); };
+    return {name, rule, words, initial, is_required, store, "", column};
 }
 
-constexpr SceneKey center_key{"center",
-                              lengths,
-                              "Position at time 0",
-                              "",
-                              required,
-                              [](Item item, Value value) { put(value, item.sphere.center); },
-                              "",
-                              &pt_sphere_array::center};
-constexpr SceneKey radius_key{"radius", radius,
-                              "",       "",
-                              required, [](Item item, Value value) { item.sphere.radius = value.get<double>(); },
-                              "",       &pt_sphere_array::radius};
+constexpr SceneKey radius_key =
+    column_key<&SphereItem::radius, &pt_sphere_array::radius>("radius", radius, "", "", required);
+constexpr SceneKey color_key = column_key<&SphereItem::color, &pt_sphere_array::color>(
+    "color", share, "Multiplies the material's diffuse", "1", optional);
+constexpr SceneKey opacity_key = column_key<&SphereItem::opacity, &pt_sphere_array::opacity>(
+    "opacity", opacity_share, "Probability that a ray hits it", "1", optional);
 constexpr SceneKey material_key{
     "material", material_name,
     "Name",     "",
-    required,   [](Item item, Value value) {
-                                    item.material_name = value.get_ref<const std::string &>(); }};
-constexpr SceneKey color_key{"color",
-                             share,
-                             "Multiplies the material's diffuse",
-                             "1",
-                             optional,
-                             [](Item item, Value value) {
-                                 float color[3];
-                                 put(value, color);
-                                 look_of(item).color = std::to_array(color);
-                             },
-                             "",
-                             &pt_sphere_array::color};
+    required,   [](Item item, Value value) { item.material_name = value.get_ref<const std::string &>(); }};
 
-constexpr SceneKey opacity_key{"opacity",
-                               opacity_share,
-                               "Probability that a ray hits it",
-                               "1",
-                               optional,
-                               [](Item item, Value value) { look_of(item).opacity = value.get<float>(); },
-                               "",
-                               &pt_sphere_array::opacity};
-
-constexpr std::array sphere_keys{center_key,
-                                 radius_key,
-                                 material_key,
-                                 SceneKey{"motion", lengths, "Displacement from time 0 to time 1", "[0, 0, 0]",
-                                          optional, [](Item item, Value value) { put(value, item.sphere.motion); }, "",
-                                          &pt_sphere_array::motion},
-                                 color_key,
-                                 opacity_key};
+constexpr std::array sphere_keys{
+    column_key<&SphereItem::center, &pt_sphere_array::center>("center", lengths, "Position at time 0", "", required),
+    radius_key,
+    material_key,
+    column_key<&SphereItem::motion, &pt_sphere_array::motion>("motion", lengths, "Displacement from time 0 to time 1",
+                                                              "[0, 0, 0]", optional),
+    color_key,
+    opacity_key};
 
 constexpr std::array capsule_keys{
-    SceneKey{"center", lengths, "One end", "", required, center_key.store, "", center_key.column},
-    SceneKey{"end", lengths, "The other end", "", required, [](Item item, Value value) { put(value, item.end); }, "",
-             &pt_sphere_array::end},
+    column_key<&SphereItem::center, &pt_sphere_array::center>("center", lengths, "One end", "", required),
+    column_key<&SphereItem::end, &pt_sphere_array::end>("end", lengths, "The other end", "", required),
     radius_key,
     material_key,
     color_key,

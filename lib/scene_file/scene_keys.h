@@ -7,7 +7,6 @@
 #include <pt/pt.h>
 
 #include <array>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,9 +16,7 @@ namespace pt {
 struct SceneItem {
     SceneFile &scene;
     pt_material material{};
-    pt_sphere sphere{};
-    double end[3]{};
-    std::optional<Look> look = std::nullopt;
+    SphereItem sphere{};
     pt_plane plane{};
     std::string material_name{};
 };

@@ -170,6 +170,8 @@ private:
             key.store(item, *found);
             if (has_columns && key.column != nullptr)
                 columns.add_value(key, *found);
+            else if (key.column != nullptr)
+                single_items().note(key.column);
         }
         if (has_columns) {
             columns.material = number_of_material(item.material_name, place.member("material"));
@@ -186,15 +188,15 @@ private:
             return;
         }
         const std::uint32_t material = number_of_material(item.material_name, place.member("material"));
-        item.sphere.material = material;
+        item.sphere.material = {material};
         item.plane.material = material;
-        if (section_->name == "spheres")
-            scene_.add_sphere(item.sphere, item.look);
-        else if (section_->name == "capsules")
-            scene_.capsules.push_back({item.sphere, std::to_array(item.end), item.look.value_or(Look{})});
+        if (section_->may_be_many())
+            single_items().items.push_back(item.sphere);
         else
             scene_.planes.push_back(item.plane);
     }
+
+    SphereItems &single_items() { return section_->name == "spheres" ? scene_.sphere_items : scene_.capsules; }
 
     std::uint32_t number_of_material(const std::string &name, const JsonPlace &place) {
         const auto [entry, fresh] =
@@ -219,10 +221,11 @@ private:
         }
         scene_.used_materials = indices;
         std::ranges::sort(scene_.used_materials);
-        for (pt_sphere &sphere : scene_.spheres)
-            sphere.material = indices[sphere.material];
-        for (Capsule &capsule : scene_.capsules)
-            capsule.ball.material = indices[capsule.ball.material];
+        for (SphereItems *single : {&scene_.sphere_items, &scene_.capsules})
+            for (SphereItem &item : single->items)
+                item.material = {indices[item.material[0]]};
+        if (scene_.spheres = scene_.sphere_items.structs(); !scene_.spheres.empty())
+            scene_.sphere_items.items.clear();
         for (SphereColumns &each : scene_.sphere_columns)
             each.material = indices[each.material];
         for (pt_plane &plane : scene_.planes)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lib/base/work_progress.h"
+#include "lib/scene/material.h"
 #include "shaders/gpu_layout.h"
 
 #include <array>
@@ -33,9 +34,9 @@ struct TreeShape {
     std::uint32_t depth;
 };
 
-// A sphere's geometry and, if it is translucent, material and color. Spheres with equal bits are twins, of which only
+// A sphere's geometry and, if it is translucent, material and looks. Spheres with equal bits are twins, of which only
 // the first is kept.
-using SphereBits = std::array<std::uint32_t, 10>;
+using SphereBits = std::array<std::uint32_t, 9 + look_columns.size()>;
 using BitsOfSphere = std::function<SphereBits(std::uint32_t)>;
 
 // Cuts nodes where the sum of surface * expected nodes is least (Goldsmith and Salmon 1987; Wald 2007). Deep nodes are

@@ -10,6 +10,7 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <limits>
 #include <queue>
 #include <utility>
@@ -48,21 +49,22 @@ std::vector<TreeItem> items_of(const SphereSource &spheres, std::span<const std:
 
 } // namespace
 
-SphereTree::SphereTree(const SphereSource &spheres, std::span<const std::uint32_t> left_out,
-                       std::span<const TreeMaterial> materials, WorkProgress &progress) :
-    SphereTree(SphereExtent(spheres, left_out, materials, progress), spheres, left_out) {
+SphereTree::SphereTree(const SphereSource &spheres, const TreeChoice &choice, std::span<const TreeMaterial> materials,
+                       WorkProgress &progress) :
+    SphereTree(spheres, choice) {
     const auto bits_of = [&](std::uint32_t index) {
         const Sphere sphere = spheres[index];
         SphereBits bits{};
         std::ranges::copy(SphereWords(sphere, grid_).all(), bits.begin());
         if (sphere.is_translucent()) {
             bits[8] = materials[sphere.material].index;
-            bits[9] = color_word(spheres.color(index));
+            std::ranges::transform(look_columns, bits.begin() + 9,
+                                   [&](const LookColumn &look) { return look.word(sphere.look); });
         }
         return bits;
     };
     progress.enter(share_of_items, static_cast<double>(spheres.size()));
-    std::vector<TreeItem> items = items_of(spheres, left_out, grid_, progress);
+    std::vector<TreeItem> items = items_of(spheres, choice.left_out, grid_, progress);
     progress.enter(share_of_shape, static_cast<double>(items.size()));
     {
         TreeShape shape = tree_shape(std::move(items), bits_of, progress);
@@ -85,13 +87,12 @@ SphereTree::SphereTree(const SphereSource &spheres, std::span<const std::uint32_
 }
 
 std::optional<SphereTree> SphereTree::with_shape_of(const SphereTree &other, const SphereSource &spheres,
-                                                    std::span<const std::uint32_t> left_out,
-                                                    std::span<const TreeMaterial> materials, WorkProgress &progress) {
-    const bool are_the_same =
-        other.scene_sphere_count_ == spheres.size() && std::ranges::equal(other.left_out_, left_out);
-    if (!are_the_same || other.sphere_count_ + left_out.size() != spheres.size())
+                                                    const TreeChoice &choice, std::span<const TreeMaterial> materials,
+                                                    WorkProgress &progress) {
+    const bool are_the_same = other.scene_sphere_count_ == spheres.size() && other.left_out_ == choice.left_out;
+    if (!are_the_same || other.sphere_count_ + choice.left_out.size() != spheres.size())
         return std::nullopt;
-    SphereTree tree(SphereExtent(spheres, left_out, materials, progress), spheres, left_out);
+    SphereTree tree(spheres, choice);
     tree.depth_ = other.depth_;
     tree.spheres_ = other.spheres_;
     tree.cost_as_made_ = other.cost_as_made_;
@@ -106,28 +107,27 @@ std::optional<SphereTree> SphereTree::with_shape_of(const SphereTree &other, con
     return tree;
 }
 
-SphereTree::SphereTree(const SphereExtent &extent, const SphereSource &spheres,
-                       std::span<const std::uint32_t> left_out) :
-    grid_(extent.grid()),
-    moves_(extent.moves),
-    kinds_(extent.kinds),
-    has_colors_(spheres.has_colors()),
+SphereTree::SphereTree(const SphereSource &spheres, const TreeChoice &choice) :
+    grid_(choice.extent.grid()),
+    moves_(choice.extent.moves),
+    kinds_(choice.extent.kinds),
     has_opacities_(spheres.has_opacities()),
     scene_sphere_count_(static_cast<std::uint32_t>(spheres.size())),
-    left_out_(left_out.begin(), left_out.end()) {
-    lamp_materials_.reserve(extent.lamp_count);
+    left_out_(choice.left_out) {
+    std::ranges::copy_if(look_columns, std::back_inserter(looks_),
+                         [&](const LookColumn &look) { return spheres.has(look.column); });
+    lamp_materials_.reserve(choice.extent.lamp_count);
 }
 
 void SphereTree::make_room(std::size_t node_count, WorkProgress &progress) {
     sphere_count_ = static_cast<std::uint32_t>(spheres_->size());
-    const std::uint32_t quarter = (sphere_count_ + 3) / 4;
     node_count_ = static_cast<std::uint32_t>(node_count);
     first_sphere_ =
         (node_count_ * gpu::TREE_NODE_WORDS + gpu::TREE_ALIGNMENT - 1) / gpu::TREE_ALIGNMENT * gpu::TREE_ALIGNMENT;
     first_motion_ = first_sphere_ + sphere_count_;
     first_surface_ = first_motion_ + (has_ways() ? sphere_count_ : 0);
-    first_color_ = first_surface_ + quarter;
-    first_lamp_ = first_color_ + (has_colors_ ? quarter : 0);
+    first_look_ = first_surface_ + quarter();
+    first_lamp_ = first_of(looks_.size());
     words_.reserve(first_lamp_ + lamp_materials_.capacity());
     // Touching new memory takes long, so progress is reported after each piece.
     constexpr std::size_t some = std::size_t{1} << 20;
@@ -147,15 +147,15 @@ void SphereTree::write_spheres(const SphereSource &spheres, std::span<const Tree
     std::vector<FoundLamp> lamps;
     lamps.reserve(lamp_materials_.capacity());
     progress.enter(share_of_spheres, static_cast<double>(sphere_count_));
-    spheres.for_each(*spheres_, progress, [&](std::size_t place, const Sphere &sphere, const glm::vec3 &color) {
+    spheres.for_each(*spheres_, progress, [&](std::size_t place, const Sphere &sphere) {
         const auto component = static_cast<int>(place % 4);
         const TreeMaterial &material = materials[sphere.material];
         const SphereWords words(sphere, grid_);
         words_[first_sphere_ + place] = words.place;
         if (has_ways())
             words_[first_motion_ + place] = words.way;
-        if (has_colors_)
-            words_[first_color_ + place / 4][component] = color_word(color);
+        for (std::size_t i = 0; i < looks_.size(); ++i)
+            words_[first_of(i) + place / 4][component] = looks_[i].word(sphere.look);
         words_[first_surface_ + place / 4][component] = material.index;
         if (material.emits)
             lamps.push_back({(*spheres_)[place], static_cast<std::uint32_t>(place), sphere.material});
@@ -208,19 +208,25 @@ void SphereTree::add_to(Digest &digest) const {
     for (std::uint32_t place = 0; place < sphere_count_; ++place)
         places[(*spheres_)[place]] = place;
     std::erase(places, nowhere);
+    const bool is_colored = has(&pt_sphere_array::color); // the color is then the first look
     for (const std::uint32_t place : places) {
         const auto component = static_cast<int>(place % 4);
         const SphereWords words = words_of(place);
         const std::uint32_t surface = words_[first_surface_ + place / 4][component];
         const bool is_lamp = (surface & gpu::TREE_LAMP_BIT) != 0;
         const std::uint32_t material = is_lamp ? words_[first_lamp_ + (surface & ~gpu::TREE_LAMP_BIT)].y : surface;
-        const std::uint32_t color =
-            has_colors_ ? words_[first_color_ + place / 4][component] : color_word(glm::vec3(1.0F));
+        const auto look = [&](std::size_t i) { return words_[first_of(i) + place / 4][component]; };
         const std::array all = words.all();
         digest.add(std::span(all).first(7));
         add_kind(digest, words.surface(grid_).kind);
-        digest.add((std::uint64_t{material} << 32) | color);
+        digest.add((std::uint64_t{material} << 32) | (is_colored ? look(0) : color_word(Look{}.color)));
+        for (std::size_t i = is_colored ? 1 : 0; i < looks_.size(); ++i)
+            digest.add(std::uint64_t{look(i)});
     }
+}
+
+bool SphereTree::has(pt_column pt_sphere_array::*look) const {
+    return std::ranges::find(looks_, look, &LookColumn::column) != looks_.end();
 }
 
 SphereWords SphereTree::words_of(std::uint32_t place) const {
@@ -371,7 +377,7 @@ gpu::TreeFrame SphereTree::frame(const Camera &camera) const {
     frame.step = static_cast<float>(grid_.step);
     frame.first_motion = first_motion_ - first_sphere_;
     frame.first_surface = first_surface_ - first_sphere_;
-    frame.first_color = first_color_ - first_sphere_;
+    frame.first_color = first_look_ - first_sphere_;
     frame.first_lamp = first_lamp_ - first_sphere_;
     frame.middle = glm::vec3(grid_.middle - camera.position);
     frame.shutter_open = static_cast<float>(camera.shutter_open);

@@ -10,9 +10,9 @@
 #include "lib/scene/scene.h"
 #include "lib/scene/sphere_source.h"
 #include "lib/tree/grid.h"
-#include "lib/tree/sphere_extent.h"
 #include "lib/tree/sphere_order.h"
 #include "lib/tree/sphere_words.h"
+#include "lib/tree/tree_choice.h"
 #include "shaders/gpu_layout.h"
 
 #include <cstdint>
@@ -24,18 +24,22 @@
 
 namespace pt {
 
+struct TreeMaterial {
+    std::uint32_t index;
+    bool emits;
+};
+
 class SphereTree {
 public:
-    // Contains all spheres except left_out (ascending indices), at least one. `materials` are the materials of the
-    // whole scene.
-    SphereTree(const SphereSource &spheres, std::span<const std::uint32_t> left_out,
-               std::span<const TreeMaterial> materials, WorkProgress &progress);
+    // The tree must have at least one sphere. `materials` are the whole scene's.
+    SphereTree(const SphereSource &spheres, const TreeChoice &choice, std::span<const TreeMaterial> materials,
+               WorkProgress &progress);
 
     // Reuses another tree's shape. Each sphere keeps its slot. Returns nothing if a new tree would be much better,
     // other spheres are left out, or a tree has twins.
     static std::optional<SphereTree> with_shape_of(const SphereTree &other, const SphereSource &spheres,
-                                                   std::span<const std::uint32_t> left_out,
-                                                   std::span<const TreeMaterial> materials, WorkProgress &progress);
+                                                   const TreeChoice &choice, std::span<const TreeMaterial> materials,
+                                                   WorkProgress &progress);
 
     const Grid &grid() const { return grid_; }
 
@@ -61,7 +65,7 @@ public:
 
     std::span<const std::uint32_t> spheres() const { return *spheres_; }
     std::uint32_t scene_sphere_count() const { return scene_sphere_count_; }
-    bool has_colors() const { return has_colors_; }
+    bool has(pt_column pt_sphere_array::*look) const;
 
     const std::vector<std::uint32_t> &lamp_materials() const { return lamp_materials_; }
 
@@ -104,7 +108,7 @@ private:
         std::uint32_t material;
     };
 
-    SphereTree(const SphereExtent &extent, const SphereSource &spheres, std::span<const std::uint32_t> left_out);
+    SphereTree(const SphereSource &spheres, const TreeChoice &choice);
 
     void make_room(std::size_t node_count, WorkProgress &progress);
     std::span<glm::uvec4> words_of_node(std::size_t node);
@@ -115,6 +119,10 @@ private:
     bool has_alike(WorkProgress &progress) const;
     bool has_ways() const { return moves_ || kinds_.have_ways(); }
     SphereWords words_of(std::uint32_t place) const;
+    std::uint32_t first_of(std::size_t look) const {
+        return first_look_ + static_cast<std::uint32_t>(look) * quarter();
+    }
+    std::uint32_t quarter() const { return (sphere_count_ + 3) / 4; }
     MovingBall surface_of(std::uint32_t place) const { return words_of(place).surface(grid_); }
     MovingBall region_of(const GridBox &box, const Camera &camera) const;
     bool is_far(const Camera &camera) const;
@@ -125,7 +133,7 @@ private:
     Grid grid_;
     bool moves_;
     Kinds kinds_;
-    bool has_colors_;
+    std::vector<LookColumn> looks_; // those that some sphere has
     bool has_opacities_;
     std::uint32_t scene_sphere_count_;
     std::vector<std::uint32_t> left_out_; // scene indices
@@ -138,7 +146,7 @@ private:
     std::uint32_t first_sphere_ = 0;
     std::uint32_t first_motion_ = 0;
     std::uint32_t first_surface_ = 0;
-    std::uint32_t first_color_ = 0;
+    std::uint32_t first_look_ = 0;
     std::uint32_t first_lamp_ = 0;
     bool close_lamps_ = false;
     GridBox box_;

@@ -48,9 +48,4 @@ std::array<float, 4> SphereWords::ball(const Grid &grid) const {
     return {middle.x, middle.y, middle.z, static_cast<float>(reach * grid.steps_per_unit)};
 }
 
-std::uint32_t color_word(const glm::vec3 &color) {
-    const glm::uvec3 steps(glm::sqrt(glm::clamp(color, 0.0F, 1.0F)) * float{gpu::TREE_COLOR_STEPS} + 0.5F);
-    return steps.r | steps.g << 10 | steps.b << 20;
-}
-
 } // namespace pt

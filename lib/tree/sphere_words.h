@@ -35,7 +35,4 @@ private:
     double radius() const { return std::bit_cast<float>(place.w); }
 };
 
-// Stores ten bits of each component's square root, which resolves dark colors better.
-std::uint32_t color_word(const glm::vec3 &color);
-
 } // namespace pt

@@ -2,8 +2,11 @@
 
 #include "lib/base/work_progress.h"
 #include "lib/scene/sphere_source.h"
+#include "lib/tree/sphere_extent.h"
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace pt {
@@ -18,7 +21,28 @@ inline constexpr std::uint32_t tree_of_others_from = 24;
 
 std::uint32_t tree_pays_from(const SphereSource &spheres);
 
-// Returns distant spheres and, if there are few, capsules. Indices are ascending. Each sphere is a unit of work.
-std::vector<std::uint32_t> spheres_beside_tree(const SphereSource &spheres, WorkProgress &progress);
+// The spheres of a tree.
+struct TreeChoice {
+    // Hidden spheres, distant ones and, if there are few, capsules. Indices are ascending.
+    std::vector<std::uint32_t> left_out{};
+    std::size_t hidden_count = 0;
+    SphereExtent extent{}; // of the tree's spheres; moves: of all, because kernels read all motions or none
+    std::vector<bool> used_materials{};
+};
+
+// Reads all spheres once. Each sphere is a unit of work.
+TreeChoice tree_choice(const SphereSource &spheres, std::span<const Material> materials, WorkProgress &progress);
+
+// Calls use(index, sphere) for all spheres except left_out, in ascending order.
+template <typename Use>
+void for_each_in_tree(const SphereSource &spheres, std::span<const std::uint32_t> left_out, WorkProgress &progress,
+                      Use use) {
+    spheres.for_each(progress, [&](std::uint32_t index, const Sphere &sphere) {
+        if (!left_out.empty() && left_out.front() == index)
+            left_out = left_out.subspan(1);
+        else
+            use(index, sphere);
+    });
+}
 
 } // namespace pt

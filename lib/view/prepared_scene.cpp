@@ -1,7 +1,6 @@
 #include "lib/view/prepared_scene.h"
 
-#include "lib/tree/tree_choice.h"
-#include "lib/view/lamp_tree.h"
+#include "lib/scene/lamp_tree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,39 +48,13 @@ std::string digest_with_tree(const PreparedScene &prepared) {
     return digest.text();
 }
 
-// Fractions of the remaining work, for progress.enter().
-constexpr double share_of_hidden = 0.05;
-constexpr double share_of_outlying = 0.05;
-constexpr double share_of_materials = 0.02;
-
-std::vector<std::uint32_t> hidden_spheres(const CheckedScene &checked, WorkProgress &progress) {
-    std::vector<std::uint32_t> hidden;
-    if (std::ranges::none_of(checked.materials, &Material::hidden))
-        return hidden;
-    progress.enter(share_of_hidden, static_cast<double>(checked.spheres.size()));
-    checked.spheres.for_each(progress, [&](std::size_t i, const Sphere &sphere, const glm::vec3 &) {
-        if (checked.materials[sphere.material].hidden)
-            hidden.push_back(static_cast<std::uint32_t>(i));
-    });
-    return hidden;
-}
-
-// Hidden spheres stay outside the tree, because camera rays do not check materials of tree spheres.
-std::vector<std::uint32_t> left_out_of(const CheckedScene &checked, const std::vector<std::uint32_t> &hidden,
-                                       WorkProgress &progress) {
-    progress.enter(share_of_outlying, static_cast<double>(checked.spheres.size()));
-    std::vector<std::uint32_t> left_out;
-    std::ranges::set_union(hidden, spheres_beside_tree(checked.spheres, progress), std::back_inserter(left_out));
-    return left_out;
-}
-
-std::shared_ptr<const SphereTree> tree_over(const SphereSource &spheres, const std::vector<std::uint32_t> &left_out,
+std::shared_ptr<const SphereTree> tree_over(const SphereSource &spheres, const TreeChoice &choice,
                                             const std::vector<TreeMaterial> &materials, const SphereTree *before,
                                             WorkProgress &progress) {
     if (before != nullptr)
-        if (auto kept = SphereTree::with_shape_of(*before, spheres, left_out, materials, progress))
+        if (auto kept = SphereTree::with_shape_of(*before, spheres, choice, materials, progress))
             return std::make_shared<const SphereTree>(std::move(*kept));
-    return std::make_shared<const SphereTree>(spheres, left_out, materials, progress);
+    return std::make_shared<const SphereTree>(spheres, choice, materials, progress);
 }
 
 } // namespace
@@ -102,27 +75,24 @@ PreparedScene PreparedScene::prepared(CheckedScene checked, std::optional<std::u
     const std::uint32_t from =
         checked.spheres.has_opacities() ? 1 : tree_from.value_or(tree_pays_from(checked.spheres));
     if (checked.spheres.size() >= from) {
-        const std::vector<std::uint32_t> hidden = hidden_spheres(checked, progress);
-        if (checked.spheres.size() - hidden.size() >= from) {
-            const std::vector<std::uint32_t> left_out = left_out_of(checked, hidden, progress);
-            if (left_out.size() < checked.spheres.size())
-                return with_tree(checked, left_out, before, progress);
-        }
+        const TreeChoice choice = tree_choice(checked.spheres, checked.materials, progress);
+        if (checked.spheres.size() - choice.hidden_count >= from && choice.left_out.size() < checked.spheres.size())
+            return with_tree(checked, choice, before, progress);
     }
     return PreparedScene(owned_scene(std::move(checked)));
 }
 
-PreparedScene PreparedScene::with_tree(const CheckedScene &checked, const std::vector<std::uint32_t> &left_out,
-                                       const SphereTree *before, WorkProgress &progress) {
-    PreparedScene prepared(owned_scene(checked, &left_out));
+PreparedScene PreparedScene::with_tree(const CheckedScene &checked, const TreeChoice &choice, const SphereTree *before,
+                                       WorkProgress &progress) {
+    PreparedScene prepared(owned_scene(checked, &choice.left_out));
     std::vector<bool> used = is_used(prepared.scene);
-    progress.enter(share_of_materials, static_cast<double>(checked.spheres.size()));
-    checked.spheres.mark_materials(used, progress);
+    for (std::size_t i = 0; i < choice.used_materials.size(); ++i)
+        used[i] = used[i] || choice.used_materials[i];
     prepared.note_materials(used);
     std::vector<TreeMaterial> materials;
     for (std::size_t i = 0; i < used.size(); ++i)
         materials.push_back({prepared.used_indices[i], emits(prepared.scene.materials[i])});
-    prepared.tree = tree_over(checked.spheres, left_out, materials, before, progress);
+    prepared.tree = tree_over(checked.spheres, choice, materials, before, progress);
     prepared.moves = prepared.moves || prepared.tree->moves();
     prepared.lamp_order = order_in_lamp_tree(with_lamps(prepared.scene, *prepared.tree));
     return prepared;

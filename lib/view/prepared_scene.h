@@ -38,8 +38,8 @@ private:
     static PreparedScene prepared(CheckedScene checked, std::optional<std::uint32_t> tree_from,
                                   const SphereTree *before, WorkProgress &progress);
 
-    static PreparedScene with_tree(const CheckedScene &checked, const std::vector<std::uint32_t> &left_out,
-                                   const SphereTree *before, WorkProgress &progress);
+    static PreparedScene with_tree(const CheckedScene &checked, const TreeChoice &choice, const SphereTree *before,
+                                   WorkProgress &progress);
 
     void note_materials(const std::vector<bool> &used);
 

@@ -107,7 +107,8 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
     const std::size_t sphere_count = scene.scene.spheres.size() + (tree ? tree->sphere_count() : 0);
     features.most_branches = branches_among(sphere_count, render.max_path_length);
     features[gpu::ID_TREE] = tree != nullptr;
-    features[gpu::ID_TREE_COLORS] = tree && tree->has_colors();
+    for (const LookColumn &look : look_columns)
+        features[look.constant] = tree && tree->has(look.column);
     features[gpu::ID_TREE_LAMPS] = tree_lamps;
     features[gpu::ID_LAMP_COUNT] = lamp_count;
     features[gpu::ID_SKY_COUNT] = surfaces.sky_count;

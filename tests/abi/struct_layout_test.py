@@ -114,6 +114,8 @@ def check_the_package_check(headers):
         assert changed != headers, old
         if wanted not in "".join(generate.files_of(changed).values()) or wanted in "".join(written.values()):
             sys.exit(f"after {old} -> {new} the package has no {wanted}")
+    if '"own": (3, "real")' not in generate.files_of(headers, "X(own, double, 3, real, rule,")["lib/python/pt/_structs.py"]:
+        sys.exit("a column of the list is not in the package")
 
 
 def main():

@@ -59,13 +59,13 @@ TEST(SceneFile, SpheresMayHaveColors) {
     EXPECT_EQ(scene.sphere_arrays()[0].count, 4U);
     const std::array<std::array<float, 3>, 4> colors{{{1, 1, 1}, {0.5F, 0, 1}, {1, 1, 1}, {0.25F, 0.25F, 0.25F}}};
     for (std::size_t i = 0; i < colors.size(); ++i)
-        EXPECT_EQ(scene.looks[i].color, colors[i]) << i;
+        EXPECT_EQ(scene.sphere_items.items[i].color, colors[i]) << i;
     EXPECT_EQ(scene.sphere_arrays()[0].opacity.data, nullptr);
     const SceneFile passed =
         parse_scene("{\"spheres\": [" + sphere("") + "," + sphere(R"(, "opacity": 0.5)") + "]," + rest, "s.json");
-    EXPECT_EQ(passed.looks[0].opacity, 1.0F);
-    EXPECT_EQ(passed.looks[1].opacity, 0.5F);
-    EXPECT_EQ(passed.sphere_arrays()[0].opacity.data, &passed.looks[0].opacity);
+    EXPECT_EQ(passed.sphere_items.items[0].opacity[0], 1.0F);
+    EXPECT_EQ(passed.sphere_items.items[1].opacity[0], 0.5F);
+    EXPECT_EQ(passed.sphere_arrays()[0].opacity.data, &passed.sphere_items.items[0].opacity);
     cli::BrokenRule rule{"sphere_arrays", 0, "color", 3, "", "2", "must lie in [0, 1]"};
     EXPECT_EQ(scene.explain(rule), "s.json:4: spheres[3].color = 2: must lie in [0, 1]");
 }

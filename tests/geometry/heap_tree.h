@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -30,9 +31,23 @@ inline std::vector<pt_sphere> heap(std::size_t count, double motion) {
     return spheres;
 }
 
-inline pt::SphereTree tree_of(const std::vector<pt_sphere> &spheres) {
+inline pt::TreeChoice choice_without(const std::vector<std::uint32_t> &left_out, const pt::SphereSource &spheres) {
+    pt::TreeChoice choice{.left_out = left_out};
+    for (std::uint32_t i = 0; i < spheres.size(); ++i)
+        if (std::ranges::find(left_out, i) == left_out.end())
+            choice.extent.add(spheres[i], two_materials[spheres[i].material].emits);
+        else
+            choice.extent.moves = choice.extent.moves || spheres[i].ball().moves();
+    return choice;
+}
+
+inline pt::SphereTree tree_of(const pt::SphereSource &spheres, const std::vector<std::uint32_t> &left_out = {}) {
     pt::WorkProgress nobody;
-    return {pt::SphereSource(spheres, {}), {}, two_materials, nobody};
+    return {spheres, choice_without(left_out, spheres), two_materials, nobody};
+}
+
+inline pt::SphereTree tree_of(const std::vector<pt_sphere> &spheres) {
+    return tree_of(pt::SphereSource(spheres, {}));
 }
 
 inline pt::Camera camera_at(const glm::dvec3 &position, double open = 0.0, double close = 1.0) {

@@ -34,7 +34,8 @@ Spheres moved(Spheres spheres, double by) {
 std::optional<pt::SphereTree> kept(const pt::SphereTree &other, const Spheres &spheres,
                                    const std::vector<std::uint32_t> &left_out = {}) {
     pt::WorkProgress nobody;
-    return pt::SphereTree::with_shape_of(other, pt::SphereSource(spheres, {}), left_out, two_materials, nobody);
+    const pt::SphereSource source(spheres, {});
+    return pt::SphereTree::with_shape_of(other, source, choice_without(left_out, source), two_materials, nobody);
 }
 
 std::string digest_of(const pt::SphereTree &tree) {
@@ -46,7 +47,7 @@ std::string digest_of(const pt::SphereTree &tree) {
 void expect_alike(const pt::SphereTree &tree, const pt::SphereTree &other) {
     EXPECT_EQ(tree.sphere_count(), other.sphere_count());
     EXPECT_EQ(tree.moves(), other.moves());
-    EXPECT_EQ(tree.has_colors(), other.has_colors());
+    EXPECT_EQ(tree.has(&pt_sphere_array::color), other.has(&pt_sphere_array::color));
     EXPECT_EQ(tree.lamp_materials(), other.lamp_materials());
     EXPECT_EQ(tree.bounds().low, other.bounds().low);
     EXPECT_EQ(tree.bounds().high, other.bounds().high);
@@ -113,9 +114,9 @@ TEST(KeptShape, IsOfAllThatIsNotPlacesToo) {
     array.color = {colors.data(), 12, PT_TYPE_FLOAT32};
     const pt::SphereSource source({}, {&array, 1});
     pt::WorkProgress nobody;
-    const auto colored = pt::SphereTree::with_shape_of(tree, source, {}, two_materials, nobody);
+    const auto colored = pt::SphereTree::with_shape_of(tree, source, choice_without({}, source), two_materials, nobody);
     ASSERT_TRUE(colored);
-    expect_alike(*colored, pt::SphereTree(source, {}, two_materials, nobody));
+    expect_alike(*colored, tree_of(source));
 }
 
 TEST(KeptShape, IsNotForOtherSpheres) {
@@ -131,9 +132,7 @@ TEST(KeptShape, IsNotForOtherSpheres) {
     fewer.pop_back();
     EXPECT_FALSE(kept(tree, fewer));
 
-    pt::WorkProgress nobody;
-    const pt::SphereTree without_one(pt::SphereSource(spheres, {}), std::vector<std::uint32_t>{5}, two_materials,
-                                     nobody);
+    const pt::SphereTree without_one = tree_of(pt::SphereSource(spheres, {}), {5});
     EXPECT_TRUE(kept(without_one, spheres, {5}));
     EXPECT_FALSE(kept(without_one, spheres, {6}));
     EXPECT_FALSE(kept(without_one, spheres));

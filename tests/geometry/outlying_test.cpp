@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <random>
 #include <vector>
 
@@ -18,9 +21,11 @@ std::vector<pt_sphere> heap(std::size_t count) {
     return spheres;
 }
 
+const std::vector<pt::Material> one_material(1);
+
 std::vector<std::uint32_t> outlying_of(const std::vector<pt_sphere> &spheres) {
     pt::WorkProgress nobody;
-    return pt::spheres_beside_tree(pt::SphereSource(spheres, {}), nobody);
+    return pt::tree_choice(pt::SphereSource(spheres, {}), one_material, nobody).left_out;
 }
 
 using Indices = std::vector<std::uint32_t>;
@@ -61,6 +66,31 @@ TEST(Outlying, LeaveHalfOfTheSpheres) {
             progression[i].center[0] = std::pow(100.0, static_cast<double>(i % 8));
         EXPECT_LE(outlying_of(progression).size(), count / 2);
     }
+}
+
+TEST(TreeChoice, HasTheExtentOfTheTreesSpheresAlone) {
+    std::vector<pt_sphere> spheres = heap(1000);
+    for (const std::size_t i : {3U, 255U, 256U, 700U})
+        spheres[i].center[1] = 1e4;
+    spheres[701].material = 1; // a lamp
+    spheres[702].material = 2; // hidden
+    spheres[702].radius = 9;
+    std::vector<pt::Material> materials(3);
+    materials[1].emission.r = 1.0F;
+    materials[2].hidden = true;
+    const pt::SphereSource source(spheres, {});
+    pt::WorkProgress nobody;
+    const pt::TreeChoice choice = pt::tree_choice(source, materials, nobody);
+    EXPECT_EQ(choice.left_out, Indices({3, 255, 256, 700, 702}));
+    EXPECT_EQ(choice.hidden_count, 1U);
+    pt::SphereExtent expected;
+    for (std::uint32_t i = 0; i < source.size(); ++i)
+        if (std::ranges::find(choice.left_out, i) == choice.left_out.end())
+            expected.add(source[i], i == 701);
+    EXPECT_EQ(choice.extent.box.low, expected.box.low);
+    EXPECT_EQ(choice.extent.box.high, expected.box.high);
+    EXPECT_EQ(choice.extent.largest_radius, 0.1);
+    EXPECT_EQ(choice.extent.lamp_count, 1U);
 }
 
 } // namespace

@@ -251,12 +251,7 @@ TEST(SphereArrays, ColorsMayBeOfAnyType) {
     const auto color = [&](const ColumnCopy &copy, std::uint32_t index) {
         pt_sphere_array array = particles.array();
         array.color = copy.column();
-        glm::vec3 found(-1.0F);
-        pt::WorkProgress nobody;
-        pt::SphereSource({}, {&array, 1})
-            .for_each({&index, 1}, nobody,
-                      [&](std::uint32_t, const pt::Sphere &, const glm::vec3 &own) { found = own; });
-        return found;
+        return pt::SphereSource({}, {&array, 1})[index].look.color;
     };
     for (std::uint32_t i = 0; i < 4; ++i)
         EXPECT_EQ(color(doubles, i), color(floats, i)) << i;

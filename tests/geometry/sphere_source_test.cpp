@@ -1,5 +1,6 @@
 #include "lib/scene/scene.h"
 #include "lib/scene/sphere_source.h"
+#include "lib/tree/tree_choice.h"
 #include "tests/geometry/particles.h"
 
 #include <gtest/gtest.h>
@@ -38,11 +39,13 @@ TEST(SphereSource, ReadsInOrderAcrossArrays) {
     const std::vector<pt_sphere> structs(5, pt_sphere{{9, 9, 9}, 3, {1, 0, 0}, 1, 0});
     const pt::SphereSource source(structs, arrays);
     ASSERT_EQ(source.size(), 5 + first);
-    EXPECT_TRUE(source.has_colors());
+    EXPECT_TRUE(source.has(&pt_sphere_array::color));
+    EXPECT_FALSE(source.has(&pt_sphere_array::end));
     std::uint32_t next = 0;
     std::vector<glm::vec3> colors;
     pt::WorkProgress nobody;
-    source.for_each(nobody, [&](std::uint32_t index, const pt::Sphere &sphere, const glm::vec3 &own_color) {
+    source.for_each(nobody, [&](std::uint32_t index, const pt::Sphere &sphere) {
+        const glm::vec3 own_color = sphere.look.color;
         ASSERT_EQ(index, next++);
         expect_equal(sphere, source[index]);
         colors.push_back(own_color);
@@ -67,15 +70,15 @@ TEST(SphereSource, ReadsInOrderAcrossArrays) {
     for (std::uint32_t i = 0; i < source.size(); ++i)
         indices.push_back(i);
     std::size_t read = 0;
-    source.for_each(indices, nobody, [&](std::size_t i, const pt::Sphere &sphere, const glm::vec3 &own_color) {
+    source.for_each(indices, nobody, [&](std::size_t i, const pt::Sphere &sphere) {
         ASSERT_EQ(i, read++);
         expect_equal(sphere, source[indices[i]]);
-        EXPECT_EQ(own_color, colors[indices[i]]) << indices[i];
+        EXPECT_EQ(sphere.look.color, colors[indices[i]]) << indices[i];
     });
     EXPECT_EQ(read, indices.size());
 }
 
-TEST(SphereSource, KnowsWhichMaterialsAreUsed) {
+TEST(TreeChoice, KnowsWhichMaterialsAreUsed) {
     const std::vector<float> center(3 * 4);
     const std::vector<std::uint32_t> materials = {7, 5, 7, 5};
     const std::uint32_t one = 3;
@@ -90,9 +93,9 @@ TEST(SphereSource, KnowsWhichMaterialsAreUsed) {
         return columns;
     };
     const auto used_by = [](std::span<const pt_sphere> structs, std::span<const pt_sphere_array> arrays) {
-        std::vector<bool> used(9);
         pt::WorkProgress nobody;
-        pt::SphereSource(structs, arrays).mark_materials(used, nobody);
+        const std::vector<bool> used =
+            pt::tree_choice(pt::SphereSource(structs, arrays), std::vector<pt::Material>(9), nobody).used_materials;
         std::vector<std::size_t> marked;
         for (std::size_t i = 0; i < used.size(); ++i)
             if (used[i])
@@ -104,7 +107,6 @@ TEST(SphereSource, KnowsWhichMaterialsAreUsed) {
     const std::vector<pt_sphere_array> arrays = {array(4, {materials.data(), 4, PT_TYPE_UINT32}),
                                                  array(4, {&one, 0, PT_TYPE_UINT32}),
                                                  array(0, {&nobodys, 0, PT_TYPE_UINT32})};
-    EXPECT_EQ(used_by({}, {}), Marked{});
     EXPECT_EQ(used_by(structs, {}), Marked{1});
     EXPECT_EQ(used_by(structs, arrays), (Marked{1, 3, 5, 7}));
     const pt_sphere_array without = array(4, {});

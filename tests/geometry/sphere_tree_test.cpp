@@ -120,8 +120,7 @@ TEST(SphereTree, KnowsLampsThatNearlyCoincideWithSpheres) {
 
 pt::SphereTree tree_with(const pt_sphere_array &capsules, const std::vector<pt_sphere> &spheres,
                          const std::vector<std::uint32_t> &left_out = {}) {
-    pt::WorkProgress nobody;
-    return {pt::SphereSource(spheres, {&capsules, 1}), left_out, two_materials, nobody};
+    return tree_of(pt::SphereSource(spheres, {&capsules, 1}), left_out);
 }
 
 TEST(SphereTree, KnowsLampsInCapsules) {
@@ -180,8 +179,7 @@ TEST(SphereTree, TakesNoMoreThan48BytesASphere) {
     array.center = {spheres[0].center, sizeof spheres[0], PT_TYPE_FLOAT64};
     array.radius = {&spheres[0].radius, sizeof spheres[0], PT_TYPE_FLOAT64};
     array.color = {colors.data(), 12, PT_TYPE_FLOAT32};
-    pt::WorkProgress nobody;
-    const pt::SphereTree colored(pt::SphereSource({}, {&array, 1}), {}, two_materials, nobody);
+    const pt::SphereTree colored = tree_of(pt::SphereSource({}, {&array, 1}));
     EXPECT_EQ(colored.words().size() * sizeof(glm::uvec4), plain + 4 * spheres.size());
     const pt::gpu::TreeFrame frame = colored.frame(camera_at(glm::dvec3(0.0)));
     // sqrt(1/2) * 1023 = 723.4

@@ -77,6 +77,13 @@ def index_column(name: str, values: npt.ArrayLike, count: int) -> Array:
     return _laid_out(name, array, 1, count)
 
 
+def sphere_column(name: str, values: npt.ArrayLike, count: int | None) -> Array:
+    components, types = structs.SPHERE_COLUMNS[name]
+    if types == "real" or count is None:
+        return real_column(name, values, components, count)
+    return (color_column if types == "color" else index_column)(name, values, count)
+
+
 def column_of(array: Array | None) -> structs.pt_column:
     if array is None:
         return structs.pt_column()

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from pt import _structs as structs
 from pt._callbacks import CallbackGuard, Progress
-from pt._columns import Array, color_column, column_of, index_column, real_column
+from pt._columns import Array, column_of, sphere_column
 from pt._enums import MaterialFlag
 from pt._vectors import Color, Vector, color, vector
 
@@ -110,20 +110,23 @@ class SphereArray:
     integer colors other than uint8.
     """
 
+    center: Array
+    radius: Array
+    material: Material | Array
+    motion: Array | None
+    color: Array | None
+    end: Array | None
+    opacity: Array | None
+
     def __init__(self, center: npt.ArrayLike, radius: npt.ArrayLike, material: MaterialOrIndex | npt.ArrayLike, *,
                  motion: npt.ArrayLike | None = None, color: npt.ArrayLike | None = None,
                  end: npt.ArrayLike | None = None, opacity: npt.ArrayLike | None = None) -> None:
-        self.center: Array = real_column("center", center, 3, None)
-        count = len(self.center)
-        self.radius: Array = real_column("radius", radius, 1, count)
-        self.material: Material | Array = (
-            material if isinstance(material, Material) else index_column("material", material, count))
-        self.motion: Array | None = None if motion is None else real_column("motion", motion, 3, count)
-        self.color: Array | None = None if color is None else color_column("color", color, count)
-        self.end: Array | None = None if end is None else real_column("end", end, 3, count)
-        self.opacity: Array | None = None if opacity is None else real_column("opacity", opacity, 1, count)
         given = {"center": center, "radius": radius, "material": material, "motion": motion, "color": color,
                  "end": end, "opacity": opacity}
+        for name, values in given.items():
+            count = None if name == "center" else len(self.center)
+            is_column = values is not None and not isinstance(values, Material)
+            setattr(self, name, sphere_column(name, values, count) if is_column else values)
         self.copied: tuple[str, ...] = tuple(name for name, value in given.items() if self._is_copy(name, value))
 
     def _is_copy(self, name: str, value: object) -> bool:
@@ -186,14 +189,11 @@ class SceneStruct:
             sphere_arrays=_pointer(structs.pt_sphere_array, arrays), progress=guard.progress(progress))
 
     def _sphere_array(self, array: SphereArray, materials: _Materials) -> structs.pt_sphere_array:
-        indices = array.material
-        if isinstance(indices, Material):
-            indices = np.broadcast_to(np.uint32(materials.index(indices)), len(array))
-        columns = [array.center, array.radius, array.motion, indices, array.color, array.end, array.opacity]
-        self._columns += [column for column in columns if column is not None]
-        center, radius, motion, material, color, end, opacity = map(column_of, columns)
-        return structs.pt_sphere_array(count=len(array), center=center, radius=radius, motion=motion,
-                                       material=material, color=color, end=end, opacity=opacity)
+        columns: dict[str, Array | None] = {name: getattr(array, name) for name in structs.SPHERE_COLUMNS}
+        if isinstance(array.material, Material):
+            columns["material"] = np.broadcast_to(np.uint32(materials.index(array.material)), len(array))
+        self._columns += [column for column in columns.values() if column is not None]
+        return structs.pt_sphere_array(count=len(array), **{name: column_of(each) for name, each in columns.items()})
 
 
 def _pointer(struct: Any, elements: list[Any]) -> Any:

@@ -28,7 +28,6 @@ from pt._text import c_string
 SONAME: Final = {"win32": "pt-scene.dll", "darwin": f"libpt-scene.{VERSION}.dylib"}.get(
     sys.platform, f"libpt-scene.so.{VERSION}")
 CURVES: Final = tuple(each.name.lower() for each in Curve)
-COLUMNS: Final = {"center": 3, "radius": 1, "material": 1, "motion": 3, "color": 3, "end": 3, "opacity": 1}
 TYPES: Final = {ColumnType.FLOAT32: np.float32, ColumnType.FLOAT64: np.float64, ColumnType.UINT32: np.uint32,
                 ColumnType.SRGB8: np.uint8}
 PARAMETERS: Final[dict[str, list[Any]]] = {
@@ -187,7 +186,8 @@ class _Handle:
                      materials=[_material(each) for each in scene.materials[:scene.material_count]])
 
     def _array(self, array: structs.pt_sphere_array) -> SphereArray:
-        columns = {name: self._column(getattr(array, name), array.count, length) for name, length in COLUMNS.items()}
+        columns = {name: self._column(getattr(array, name), array.count, length)
+                   for name, (length, _) in structs.SPHERE_COLUMNS.items()}
         return SphereArray(**{name: column for name, column in columns.items() if column is not None})
 
     def _column(self, column: structs.pt_column, count: int, length: int) -> Array | None:

@@ -3,7 +3,7 @@ which means its default."""
 
 import ctypes
 from ctypes import POINTER, c_char, c_char_p, c_double, c_float, c_int32, c_int64, c_uint8, c_uint32, c_uint64, c_void_p
-from typing import Any
+from typing import Any, Final
 
 pt_progress_fn = ctypes.CFUNCTYPE(c_int32, c_void_p, c_double)
 pt_log_fn = ctypes.CFUNCTYPE(None, c_void_p, c_int32, c_char_p)
@@ -179,3 +179,8 @@ class pt_error_estimate(Sized):
     _fields_ = [("struct_size", c_uint32), ("uncertain", c_uint32), ("rmse", c_double), ("rmse_low", c_double),
                 ("rmse_high", c_double), ("relative_rmse", c_double), ("relative_rmse_low", c_double),
                 ("relative_rmse_high", c_double)]
+
+
+# For each column of pt_sphere_array, the number and the type of its components.
+SPHERE_COLUMNS: Final = {"center": (3, "real"), "radius": (1, "real"), "motion": (3, "real"), "material": (1, "index"),
+                         "color": (3, "color"), "end": (3, "real"), "opacity": (1, "real")}

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from pt import _structs as structs
 from pt._camera import Camera
 from pt._files import Path, format_of, write_atomically
 from pt._scene import Material, Scene
@@ -31,9 +32,9 @@ def write_scene(path: Path, scene: Scene, camera: Camera, size: tuple[int, int],
     for number, array in enumerate(scene.sphere_arrays):
         kind = f"capsules-{number}-" if number else ""
         item: dict[str, Any] = {}
-        for name in ("center", "end", "radius", "color", "opacity"):
-            column = getattr(array, name)
-            if column is not None and name in ("radius", "opacity") and not column.strides[0]:
+        for name, (components, types) in structs.SPHERE_COLUMNS.items():
+            column = None if types == "index" else getattr(array, name)
+            if column is not None and components == 1 and not column.strides[0]:
                 item[name] = float(column[0])
             elif column is not None:
                 file = place.with_name(f"{place.stem}-{kind}{name}.npy")

@@ -1,0 +1,15 @@
+// The columns of pt_sphere_array. Rules, reader, scene files and Python (generate.py) follow from this list. Columns
+// that change the material are also in material.h.
+#pragma once
+
+// X(name, component, components, types, rule, is_needed, initial, set): `component` is the type in scene files, `types`
+// are those of callers (column.h). nullptr instead of a rule: an index of a material. `set` puts a value into a Sphere,
+// after the columns before it.
+#define PT_SPHERE_COLUMNS(X)                                                                                           \
+    X(center, double, 3, real, length_rule, true, 0, sphere.center = value)                                            \
+    X(radius, double, 1, real, positive_length_rule, true, 0, sphere.radius = value)                                   \
+    X(motion, double, 3, real, length_rule, false, 0, sphere.motion = value)                                           \
+    X(material, std::uint32_t, 1, index, nullptr, false, 0, sphere.material = value)                                   \
+    X(color, float, 3, color, share_rule, false, 1, sphere.look.color = value)                                         \
+    X(end, double, 3, real, length_rule, false, 0, sphere.make_capsule(value))                                         \
+    X(opacity, float, 1, real, share_rule, false, 1, sphere.opacity = opacity_steps(value))

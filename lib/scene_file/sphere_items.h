@@ -1,0 +1,48 @@
+// Single spheres or capsules of a scene file.
+#pragma once
+
+#include "lib/scene/sphere_columns.h"
+
+#include <pt/pt.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace pt {
+
+template <typename Component, std::size_t count>
+constexpr std::array<Component, count> filled(Component value) {
+    std::array<Component, count> all{};
+    all.fill(value);
+    return all;
+}
+
+struct SphereItem {
+#define PT_MEMBER(name, component, components, types, rule, is_needed, initial, set)                                   \
+    std::array<component, components> name = filled<component, components>(initial);
+    PT_SPHERE_COLUMNS(PT_MEMBER)
+#undef PT_MEMBER
+};
+
+class SphereItems {
+public:
+    std::vector<SphereItem> items{};
+
+    // Notes that some item has the column. All have a material.
+    void note(pt_column pt_sphere_array::*column);
+
+    // Empty if an item has a column that pt_sphere lacks.
+    std::vector<pt_sphere> structs() const;
+
+    // Points into `items`, of which there is at least one.
+    pt_sphere_array array() const;
+
+private:
+    bool has(pt_column pt_sphere_array::*column) const;
+
+    std::vector<pt_column pt_sphere_array::*> columns_{&pt_sphere_array::material};
+};
+
+} // namespace pt
