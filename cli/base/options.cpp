@@ -22,6 +22,8 @@ std::string type_name(const ValueRule &rule) {
         return "N";
     case ValueRule::Form::number_or_auto:
         return "X|auto";
+    case ValueRule::Form::numbers:
+        return "X,X,X";
     default:
         return "X";
     }
@@ -154,9 +156,22 @@ void refuse_option(const std::string &option, const std::string &rule, const std
     throw CLI::ValidationError(option, rule + ", is \"" + text + "\"");
 }
 
+// "1,2,3" as an array. Texts that are no numbers stay.
+nlohmann::json numbers_of(const std::string &text) {
+    auto numbers = nlohmann::json::array();
+    std::istringstream parts(text);
+    for (std::string part; std::getline(parts, part, ',');) {
+        const auto number = parse_number<double>(part);
+        numbers.push_back(number ? nlohmann::json(*number) : nlohmann::json(part));
+    }
+    return numbers;
+}
+
 nlohmann::json read_value(const std::string &option, const std::string &text, const ValueRule &rule) {
     nlohmann::json value = text;
-    if (const auto whole = parse_number<std::uint64_t>(text); whole && rule.form != ValueRule::Form::name)
+    if (rule.form == ValueRule::Form::numbers)
+        value = numbers_of(text);
+    else if (const auto whole = parse_number<std::uint64_t>(text); whole && rule.form != ValueRule::Form::name)
         value = *whole;
     else if (const auto real = parse_number<double>(text); real && rule.form != ValueRule::Form::name)
         value = *real;

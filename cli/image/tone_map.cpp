@@ -8,6 +8,7 @@
 #include <cstddef>
 
 namespace cli {
+
 ToneMap tone_map_for(pt_display_info display, std::span<const float> radiance) {
     const bool is_automatic = display.automatic_exposure != 0;
     if (is_automatic)
@@ -39,6 +40,10 @@ std::vector<std::uint8_t> map_to_bytes(std::span<const float> radiance, const To
     return bytes;
 }
 
+bool has_white(const pt_display_info &display) {
+    return display.white[0] != 0.0;
+}
+
 nlohmann::ordered_json tone_map_json(const std::optional<ToneMap> &tone_map) {
     if (!tone_map)
         return nullptr;
@@ -46,7 +51,8 @@ nlohmann::ordered_json tone_map_json(const std::optional<ToneMap> &tone_map) {
     return {{"curve", pt::curves.name(display.curve)},
             {"exposure", display.exposure},
             {"automatic_exposure", tone_map->is_automatic},
-            {"gamma", display.gamma != 0.0 ? nlohmann::ordered_json(display.gamma) : nullptr}};
+            {"gamma", display.gamma != 0.0 ? nlohmann::ordered_json(display.gamma) : nullptr},
+            {"white", has_white(display) ? nlohmann::ordered_json(display.white) : nullptr}};
 }
 
 void add_tone_map(std::vector<ImageAttribute> &attributes, const ToneMap &tone_map) {
@@ -55,6 +61,9 @@ void add_tone_map(std::vector<ImageAttribute> &attributes, const ToneMap &tone_m
     attributes.push_back({"pt.exposure", display.exposure});
     attributes.push_back(display.gamma != 0.0 ? ImageAttribute{"pt.gamma", display.gamma}
                                               : ImageAttribute{"pt.encoding", "sRGB"});
+    if (has_white(display))
+        attributes.push_back(
+            {"pt.white", formatted("%.9g, %.9g, %.9g", display.white[0], display.white[1], display.white[2])});
 }
 
 std::string automatic_exposure_line(const std::optional<ToneMap> &tone_map) {

@@ -31,11 +31,6 @@ pt_result guarded(const Call &call) noexcept {
     return pt::guard(last_error, call);
 }
 
-[[noreturn]] void refuse(const char *member, const std::string &value, const std::string &rule) {
-    throw pt::Error(PT_ERROR_INVALID_ARGUMENT,
-                    pt::BrokenRule{.subject = "info", .member = member, .value = value, .rule = rule});
-}
-
 pt::SceneOverride override_of(const pt_scene_override &given) {
     pt::require_not_null(given.setting, "overrides.setting");
     pt::SceneOverride override = pt::parse_override(given.setting, "");
@@ -48,7 +43,7 @@ pt::SceneOverride override_of(const pt_scene_override &given) {
 
 std::vector<pt::SceneOverride> overrides_of(const pt_scene_file_info &info) {
     if (info.override_count > 0 && info.overrides == nullptr)
-        refuse("overrides", "NULL", "must not be NULL with an override_count");
+        pt::refuse_argument("info", "overrides", "NULL", "must not be NULL with an override_count");
     std::vector<pt::SceneOverride> overrides;
     for (std::uint32_t i = 0; i < info.override_count; ++i)
         overrides.push_back(override_of(info.overrides[i]));
@@ -58,16 +53,16 @@ std::vector<pt::SceneOverride> overrides_of(const pt_scene_file_info &info) {
 void check(const pt_scene_file_info &info) {
     constexpr std::uint32_t known_flags = PT_SCENE_FILE_FRAME;
     if (info.path == nullptr)
-        refuse("path", "NULL", "must not be NULL");
+        pt::refuse_argument("info", "path", "NULL", "must not be NULL");
     if ((info.flags & ~known_flags) != 0)
         throw pt::Error(PT_ERROR_UNSUPPORTED, pt::BrokenRule{.subject = "info",
                                                              .member = "flags",
                                                              .value = std::to_string(info.flags),
                                                              .rule = "must be PT_SCENE_FILE_FRAME or 0"});
     if (info.frame != 0 && info.flags == 0)
-        refuse("frame", std::to_string(info.frame), "must be 0 without PT_SCENE_FILE_FRAME");
+        pt::refuse_argument("info", "frame", std::to_string(info.frame), "must be 0 without PT_SCENE_FILE_FRAME");
     if (info.text == nullptr && info.text_bytes != 0)
-        refuse("text_bytes", std::to_string(info.text_bytes), "must be 0 without a text");
+        pt::refuse_argument("info", "text_bytes", std::to_string(info.text_bytes), "must be 0 without a text");
 }
 
 pt::SceneFile read(const pt_scene_file_info &info, std::vector<pt::SceneOverride> overrides) {
@@ -98,10 +93,7 @@ pt_scene scene_of(const pt_scene_file &file) {
 pt_scene_film film_of(const pt::SceneFile &file) {
     auto film = pt::sized<pt_scene_film>();
     film.sample_count = file.sample_count.value_or(0);
-    film.curve = file.display.curve;
-    film.automatic_exposure = file.display.automatic_exposure;
-    film.exposure = file.display.exposure;
-    film.gamma = file.display.gamma;
+    film.display = file.display;
     return film;
 }
 

@@ -111,8 +111,11 @@ void check_array(const ValueRule &rule, std::size_t count, const json &value, co
         refuse_value(rule, value, place);
     if (value.size() != count)
         refuse(place, "must be " + text_of(rule) + ", has " + std::to_string(value.size()));
-    for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t i = 0; i < count; ++i) {
         check_number(rule, value[i], place.element(i));
+        if (!is_in_range(rule, value[i].get<double>()))
+            refuse(place.element(i), concat("must be a number", range_text(rule), ", is ", shown(value[i])));
+    }
     if (rule.excludes_zeros && std::all_of(value.begin(), value.end(), [](const json &each) { return each == 0.0; }))
         refuse(place, "must not be [0, 0, 0]");
 }

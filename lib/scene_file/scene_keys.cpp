@@ -31,6 +31,7 @@ constexpr ValueRule share{.form = Form::color, .least = 0.0, .largest = 1.0, .is
 constexpr ValueRule opacity_share{.least = 0.0, .largest = 1.0, .is_of_library = true};
 constexpr ValueRule distance{.least = 0.0, .largest = largest_length, .is_of_library = true};
 constexpr ValueRule radius{.least = least_length, .largest = largest_length, .is_of_library = true};
+constexpr ValueRule white_point{.form = Form::numbers, .least = 1e-3, .largest = 1e3, .count = 3};
 constexpr ValueRule boolean{.form = Form::boolean};
 constexpr ValueRule material_name{.form = Form::text};
 
@@ -115,6 +116,8 @@ constexpr std::array film_keys{
              "--tonemap"},
     SceneKey{"gamma", number(0.1, 10.0), "Power 1 / gamma instead of the sRGB curve", "the sRGB curve", optional,
              [](Item item, Value value) { item.scene.display.gamma = value.get<double>(); }, "--gamma"},
+    SceneKey{"white", white_point, "Light of this color is shown as grey", "[1, 1, 1]", optional,
+             [](Item item, Value value) { put(value, item.scene.display.white); }, "--white"},
 };
 
 constexpr std::array render_keys{

@@ -132,6 +132,10 @@ class Outputs(CommandLineTest):
                                            [0, 255, 255, 188, 255, 255, 255, 255, 255]]))
         self.assertEqual(pixels("--gamma", "1")[2][0], [0, 0, 255, 128, 0, 255, 255, 0, 255])
         self.assertEqual(pixels("--gamma", "1", "--exposure", "-2")[2][0], [0, 0, 128, 32, 0, 128, 64, 0, 128])
+        self.assertEqual(pixels("--gamma", "1", "--exposure", "-2", "--white", "1,1,1")[2][0],
+                         [0, 0, 128, 32, 0, 128, 64, 0, 128])
+        self.assertNotEqual(pixels("--gamma", "1", "--exposure", "-2", "--white", "1,1,2")[2][0],
+                            [0, 0, 128, 32, 0, 128, 64, 0, 128])
         # (0, 0, 2) has the luminance 0.1444, so blue is 2 / 1.1444, which is clipped. (0.5, 0, 2) has 0.2507, so red is 0.5 / 1.2507.
         self.assertEqual(pixels("--gamma", "1", "--tonemap", "reinhard")[2][0][:6], [0, 0, 255, 102, 0, 255])
 

@@ -37,7 +37,7 @@ constexpr const char *small = R"({
                  "a": { "specular": [0.1, 0.2, 0.3], "emission": 7 } },
   "camera": { "position": [0, 0, 1], "look_at": [0, 0, -1], "up": [1, 0, 0], "vertical_fov": 90,
               "aperture": 0.125, "focus": 1.5, "shutter": [0.25, 0.5] },
-  "film": { "width": 320, "height": 2e2, "exposure": -1.5, "tonemap": "agx", "gamma": 2.2 },
+  "film": { "width": 320, "height": 2e2, "exposure": -1.5, "tonemap": "agx", "gamma": 2.2, "white": [1, 2, 0.5] },
   "render": { "max_path_length": 3, "spp": 16, "seed": 18446744073709551615, "sampler": "halton-cp",
               "estimator": "uniform" }
 })";
@@ -110,6 +110,7 @@ TEST(SceneFile, ReadsCameraAndSettings) {
     EXPECT_EQ(scene.display.exposure, -1.5);
     EXPECT_EQ(scene.display.curve, std::uint32_t{PT_CURVE_AGX});
     EXPECT_EQ(scene.display.gamma, 2.2);
+    EXPECT_EQ(std::to_array(scene.display.white), (std::array{1.0, 2.0, 0.5}));
     EXPECT_EQ(scene.render.max_path_length, 3U);
     EXPECT_EQ(scene.sample_count, 16U);
     EXPECT_EQ(scene.render.seed, 18446744073709551615U);
@@ -152,6 +153,7 @@ TEST(SceneFile, ExposuresAreNumbersOrAutomatic) {
                   std::string("1: film.exposure: must be a number from -64 to 64 stops, or \"auto\", is ") + exposure);
     }
     EXPECT_EQ(refusal(R"({"film":{"gamma":0}})"), "1: film.gamma: must be a number from 0.1 to 10, is 0");
+    EXPECT_EQ(refusal(R"({"film":{"white":[1,0,1]}})"), "1: film.white[1]: must be a number from 0.001 to 1000, is 0");
 }
 
 TEST(SceneFile, UnreadableFilesAreFileErrors) {
@@ -228,7 +230,7 @@ TEST(SceneFile, UnknownNamesGetASuggestion) {
     EXPECT_EQ(refusal(R"({"camera":{"lookat":[0,0,0]}})"),
               "1: camera: unknown key \"lookat\", did you mean \"look_at\"?");
     EXPECT_EQ(refusal(R"({"film":{"size":1}})"),
-              "1: film: unknown key \"size\", known: width, height, exposure, tonemap, gamma");
+              "1: film: unknown key \"size\", known: width, height, exposure, tonemap, gamma, white");
     EXPECT_EQ(refusal(R"({"spheres":[{"raduis":1}]})"),
               "1: spheres[0]: unknown key \"raduis\", did you mean \"radius\"?");
     EXPECT_EQ(refusal(R"({"spheres":[{"center":[0,0,0],"radius":1,"material":"glod"}],"materials":{"gold":{}}})"),

@@ -11,7 +11,7 @@ from scene_file import read_scene
 
 SCENE = {
     "camera": {"position": [0, 1, 6], "look_at": [0, 1, 0], "up": [0, 1, 0], "vertical_fov": 35, "shutter": [0, 0.5]},
-    "film": {"width": 4, "height": 2, "exposure": "auto", "tonemap": "neutral", "gamma": 2.2},
+    "film": {"width": 4, "height": 2, "exposure": "auto", "tonemap": "neutral", "gamma": 2.2, "white": [1, 0.9, 0.8]},
     "render": {"max_path_length": 2, "spp": 1, "seed": 7, "sampler": "sobol", "estimator": "mis"},
     "materials": {"a": {"diffuse": 0.5, "specular": [0.1, 0.2, 0.3], "glossiness": 10, "emission": [3, 2, 1]}},
     "spheres": [{"center": [0, 1, 0], "radius": 0.5, "material": "a", "motion": [1, 0, 0],

@@ -106,10 +106,10 @@ TEST(SceneFileCalls, GiveTheWholeFile) {
     EXPECT_EQ(render.width, 30U);
     EXPECT_EQ(render.seed, 5U);
     EXPECT_EQ(film.sample_count, 12U);
-    EXPECT_EQ(film.curve, 2U);
-    EXPECT_EQ(film.automatic_exposure, 0U);
-    EXPECT_EQ(film.exposure, -2.5);
-    EXPECT_EQ(film.gamma, 1.5);
+    EXPECT_EQ(film.display.curve, 2U);
+    EXPECT_EQ(film.display.automatic_exposure, 0U);
+    EXPECT_EQ(film.display.exposure, -2.5);
+    EXPECT_EQ(film.display.gamma, 1.5);
 }
 
 TEST(SceneFileCalls, HaveDefaults) {
@@ -119,8 +119,8 @@ TEST(SceneFileCalls, HaveDefaults) {
     ASSERT_EQ(pt_get_scene_file(file.get(), nullptr, nullptr, &render, &film), PT_OK);
     EXPECT_EQ(render.width, 512U);
     EXPECT_EQ(film.sample_count, 0U);
-    EXPECT_EQ(film.automatic_exposure, 1U);
-    EXPECT_EQ(film.gamma, 0.0);
+    EXPECT_EQ(film.display.automatic_exposure, 1U);
+    EXPECT_EQ(film.display.gamma, 0.0);
 }
 
 TEST(SceneFileCalls, WriteNoMoreThanStructSize) {
@@ -190,7 +190,7 @@ TEST(SceneFileCalls, BlameOverrides) {
     auto film = sized<pt_scene_film>();
     ASSERT_EQ(pt_get_scene_file(file.get(), nullptr, nullptr, &render, &film), PT_OK);
     EXPECT_EQ(render.width, 98U);
-    EXPECT_EQ(film.curve, 3U);
+    EXPECT_EQ(film.display.curve, 3U);
 }
 
 TEST(SceneFileCalls, FindTheSourceOfARule) {

@@ -7,6 +7,7 @@
 #ifndef PT_SCENE_FILE_H
 #define PT_SCENE_FILE_H
 
+#include <pt/display.h>
 #include <pt/errors.h>
 #include <pt/pt.h>
 
@@ -45,12 +46,9 @@ typedef struct pt_scene_file_info {
 
 /** Settings of the file for the number of samples and the display (pt/display.h). */
 typedef struct pt_scene_film {
-    uint32_t struct_size;        /**< sizeof(pt_scene_film) */
-    uint32_t sample_count;       /**< samples of a pixel; 0 if the file has none */
-    uint32_t curve;              /**< PT_CURVE_* */
-    uint32_t automatic_exposure; /**< as in pt_display_info */
-    double exposure;             /**< stops */
-    double gamma;                /**< as in pt_display_info */
+    uint32_t struct_size;    /**< sizeof(pt_scene_film); the caller sets it */
+    uint32_t sample_count;   /**< samples of a pixel; 0: the file has no number */
+    pt_display_info display; /**< complete for pt_display, except for the pixels; its struct_size is set */
 } pt_scene_film;
 
 /** The source of a value that libpt refuses. */

@@ -24,6 +24,7 @@ from pt._files import Path
 from pt._library import VERSION, library_path
 from pt._scene import Material, Plane, Scene, Sphere, SphereArray
 from pt._text import c_string
+from pt._vectors import Vector
 
 SONAME: Final = {"win32": "pt-scene.dll", "darwin": f"libpt-scene.{VERSION}.dylib"}.get(
     sys.platform, f"libpt-scene.so.{VERSION}")
@@ -79,11 +80,13 @@ class Display:
     exposure   stops; None: automatic
     tonemap    curve from radiance to light, one of CURVES
     gamma      encodes with the power 1 / gamma; None: the sRGB curve
+    white      R, G, B of light that is shown as grey; None: (1, 1, 1)
     """
 
     exposure: float | None = None
     tonemap: str = CURVES[0]
     gamma: float | None = None
+    white: Vector | None = None
 
 
 @dataclass(frozen=True)
@@ -124,7 +127,9 @@ def load(path: Path, *, text: str | None = None, overrides: Mapping[str, Any] | 
              if isinstance(overrides, Mapping) else list(overrides))
     handle = _Handle(path, text, given, frame)
     scene, camera, render, film = handle.contents()
-    display = Display(None if film.automatic_exposure else film.exposure, CURVES[film.curve], film.gamma or None)
+    shown = film.display
+    display = Display(None if shown.automatic_exposure else shown.exposure, CURVES[shown.curve], shown.gamma or None,
+                      tuple(shown.white) if any(shown.white) else None)
     return SceneFile(handle.scene_of(scene), _camera(camera), _settings(render), film.sample_count or None, display,
                      handle.files(), handle)
 

@@ -160,8 +160,7 @@ class pt_scene_file_info(Sized):
 
 
 class pt_scene_film(Sized):
-    _fields_ = [("struct_size", c_uint32), ("sample_count", c_uint32), ("curve", c_uint32),
-                ("automatic_exposure", c_uint32), ("exposure", c_double), ("gamma", c_double)]
+    _fields_ = [("struct_size", c_uint32), ("sample_count", c_uint32), ("display", pt_display_info)]
 
 
 class pt_rule_source(Sized):

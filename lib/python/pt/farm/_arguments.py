@@ -31,8 +31,8 @@ def _share(text: str) -> float:
     return value
 
 
-def _setting(name: str, path: str) -> Callable[[str], list[Override]]:
-    return lambda text: [Override(f"{path}={text}", name)]
+def _setting(name: str, path: str, form: str) -> Callable[[str], list[Override]]:
+    return lambda text: [Override(f"{path}={form.format(text)}", name)]
 
 
 def _size(text: str) -> list[Override]:
@@ -49,10 +49,11 @@ def _add_scene_options(command: argparse.ArgumentParser) -> None:
     group.add_argument("--set", action="extend", default=[], type=lambda text: [Override(text)], metavar="PATH=VALUE")
     group.add_argument("--size", type=_size, metavar="WxH", **settings)
     for section in ("film", "render"):
-        for key in scene_schema()["properties"][section]["properties"]:
+        for key, schema in scene_schema()["properties"][section]["properties"].items():
             if key not in ("width", "height"):
-                name = f"--{key.replace('_', '-')}"
-                group.add_argument(name, type=_setting(name, f"{section}.{key}"), metavar="X", **settings)
+                name, is_array = f"--{key.replace('_', '-')}", schema.get("type") == "array"
+                group.add_argument(name, type=_setting(name, f"{section}.{key}", "[{}]" if is_array else "{}"),
+                                   metavar="X,X,X" if is_array else "X", **settings)
     group.add_argument("--error", type=_share, default=0.0, metavar="E")
     group.add_argument("--sampling", choices=[name.lower() for name in Sampling.__members__], default="best")
     group.add_argument("--first-sample", type=at_least(0, int), default=0, metavar="N")
@@ -67,6 +68,7 @@ def parser() -> argparse.ArgumentParser:
     command.add_argument("-o", "--output", action="append", default=[], metavar="IMAGE")
     command.add_argument("--film", metavar="FILM")
     command.add_argument("--layers", metavar="NAMES")
+    command.add_argument("--alpha", action="store_true")
     where = command.add_mutually_exclusive_group()
     where.add_argument("--scheduler", metavar="ADDRESS", help="address of a Dask cluster, such as tls://host:8786")
     where.add_argument("--local-workers", type=at_least(1, int), metavar="N",
@@ -121,6 +123,10 @@ def check_files(arguments: argparse.Namespace) -> None:
     wanted += [(name, ()) for name in (arguments.film, arguments.checkpoint) if name]
     if wrong := misnamed(wanted, arguments.scene):
         refuse(*wrong)
+    if arguments.alpha:
+        for name in arguments.output:
+            if not name.lower().endswith((".exr", ".png")):
+                refuse(f"--alpha: -o {name}: the format has no alpha; .exr and .png have")
     if arguments.layers:
         if not set(arguments.layers.split(",")) <= FILM_LAYERS:
             refuse(f"--layers {arguments.layers}: must be of {', '.join(sorted(FILM_LAYERS))}, separated by commas")

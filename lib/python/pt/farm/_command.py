@@ -81,6 +81,8 @@ def write_pictures(film: Film, arguments: argparse.Namespace, display: Display, 
     options = ["--exposure", "auto" if display.exposure is None else repr(display.exposure),
                "--tonemap", display.tonemap]
     options += ["--gamma", repr(display.gamma)] if display.gamma else []
+    options += ["--white", ",".join(map(repr, display.white))] if display.white else []
+    options += ["--alpha"] if arguments.alpha else []
     options += [word for name in arguments.output for word in ("-o", numbered(name, frame))]
     options += ["--layers", arguments.layers] if arguments.layers else []
     with tempfile.TemporaryDirectory() as folder:
@@ -109,7 +111,7 @@ def render_pictures(arguments: argparse.Namespace, signals: Signals) -> int:
     with cluster(arguments) as client:
         for frame in frames:
             file = read_scene(arguments, frame)
-            settings = replace(file.settings, first_sample=arguments.first_sample)
+            settings = replace(file.settings, first_sample=arguments.first_sample, coverage=arguments.alpha)
             signals.is_rendering = True
             try:
                 result = render(client, Job(file.scene, file.camera, settings, arguments.device),

@@ -18,14 +18,15 @@ SIGNALS: Final[dict[str, Any]] = {"exposure": 0.0, "gamma": 1.0}  # numbers in [
 class Look:
     """A page's display of the mean; other layers have their own.
 
-    display   exposure (a number or "auto"), tonemap, gamma (None: the sRGB curve)
+    display   exposure (a number or "auto"), tonemap, gamma (None: the sRGB curve), white (may be missing)
     stops     exposure in use; an automatic exposure is not computed while the camera moves
     """
 
     def __init__(self, display: dict[str, Any], stops: float = 0.0) -> None:
         self.is_automatic = display["exposure"] == "auto"
         self.stops = stops if self.is_automatic else display["exposure"]
-        self._fields = {"curve": Curve[str(display["tonemap"]).upper()], "gamma": display["gamma"] or 0.0}
+        self._fields = {"curve": Curve[str(display["tonemap"]).upper()], "gamma": display["gamma"] or 0.0,
+                        "white": display.get("white") or (0.0, 0.0, 0.0)}
         self.pixels([0.0, 0.0, 0.0])  # Raises for values that the library refuses.
 
     def pixels(self, radiance: npt.ArrayLike) -> Pixels:

@@ -204,7 +204,8 @@ class Server:
             if "next" in message:
                 page.wanted.set()
             elif "display" in message:
-                page.look = Look(message["display"], page.look.stops)
+                white = self.show.frame.state["display"].get("white")
+                page.look = Look({**message["display"], "white": white}, page.look.stops)
                 self._announce()
             elif "pixel" in message:
                 x, y = (_whole(each, 0, MOST_PIXELS) for each in message["pixel"])

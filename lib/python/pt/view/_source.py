@@ -58,7 +58,7 @@ class SceneSource:
     def read(self) -> Shown:
         self._file = file = load_scene(self.path)
         display = {"exposure": "auto" if file.display.exposure is None else file.display.exposure,
-                   "tonemap": file.display.tonemap, "gamma": file.display.gamma}
+                   "tonemap": file.display.tonemap, "gamma": file.display.gamma, "white": file.display.white}
         return Shown(file.scene, file.camera, file.settings, display, [self.path, *file.files])
 
     def explained(self, error: Exception) -> str:
