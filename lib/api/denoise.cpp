@@ -7,6 +7,8 @@
 #include "lib/denoise/combination.h"
 #include "lib/denoise/open_image_denoise.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <vector>
 
 namespace pt {
@@ -48,4 +50,10 @@ pt_result pt_denoise(const pt_denoise_info *info, pt_error_estimate *error) {
         pt::struct_size_of(error, "error");
         pt::copy_out(pt::stated(pt::denoise(pt::validated_denoise(info))), error, "error");
     });
+}
+
+uint32_t pt_next_round(uint32_t sample_count) {
+    constexpr std::uint64_t first = 16; // the first number with a known error
+    const std::uint64_t next = std::uint64_t{sample_count} + sample_count / 2;
+    return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(next, first, UINT32_MAX));
 }

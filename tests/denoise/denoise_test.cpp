@@ -323,8 +323,17 @@ TEST(Denoise, IsNotPersuadedByOnePixel) {
         ASSERT_EQ(denoising.denoised[i], 0.5F * (halves[0][i] + halves[1][i])) << i;
 }
 
-// The filter spreads a lamp by two pixels. Relative to the raw image, this makes errors a million times as large.
-// Relative to the filtered image they would seem small.
+TEST(Denoise, HasRoundsHalfAsLargeAgain) {
+    std::vector<std::uint32_t> ends{0};
+    while (ends.size() < 7)
+        ends.push_back(pt_next_round(ends.back()));
+    EXPECT_EQ(ends, (std::vector<std::uint32_t>{0, 16, 24, 36, 54, 81, 121}));
+    EXPECT_EQ(pt_next_round(10), 16U);
+    EXPECT_EQ(pt_next_round(UINT32_MAX - 1), UINT32_MAX);
+}
+
+// The filter spreads a lamp by two pixels. There, errors relative to the raw image would be a million times the raw
+// image's. Errors relative to the filtered image would seem small.
 TEST(Denoise, DoesNotSpreadALamp) {
     constexpr std::size_t first = 64;
     constexpr std::size_t end = 68;

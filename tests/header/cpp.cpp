@@ -51,6 +51,7 @@ static_assert(PT_LIGHT_EQUAL_BITS == 1 && PT_LIGHT_SAME == 2 && PT_LIGHT_DIFFERE
 static_assert(std::is_same_v<decltype(&pt_version), uint32_t (*)()>);
 static_assert(std::is_same_v<decltype(&pt_result_name), const char *(*)(pt_result)>);
 static_assert(std::is_same_v<decltype(&pt_next_check), uint32_t (*)(uint32_t)>);
+static_assert(std::is_same_v<decltype(&pt_next_round), uint32_t (*)(uint32_t)>);
 static_assert(std::is_same_v<decltype(&pt_get_devices), pt_result (*)(pt_device_info *, uint32_t *)>);
 static_assert(std::is_same_v<decltype(&pt_create), pt_result (*)(const pt_create_info *, pt_context **)>);
 static_assert(std::is_same_v<decltype(&pt_last_error), const char *(*)(const pt_context *)>);

@@ -13,7 +13,7 @@ import numpy.typing as npt
 from pt import _structs as structs
 from pt._callbacks import CallbackGuard, Log, Progress, log_function
 from pt._camera import Camera, RenderSettings
-from pt._denoise import FIRST_SAMPLES, OTHER_SEED, joined_halves
+from pt._denoise import OTHER_SEED, joined_halves
 from pt._enums import CreateFlag, Format, Quantity, Result, Sampling
 from pt._errors import BrokenRule, InvalidStateError
 from pt._files import Path
@@ -287,7 +287,7 @@ def _render_denoised(context: Context, settings: RenderSettings, samples: int, t
         return is_stopped
 
     while done < most and not is_stopped and (image is None or image.error_bounds[1] > target_error > 0.0):
-        count = min(most, max(FIRST_SAMPLES, done + done // 2)) if target_error else most
+        count = min(most, library().pt_next_round(done)) if target_error else most
         parts = []
         for index, half in enumerate(halves):
             if is_stopped:

@@ -20,7 +20,6 @@ from pt._text import c_string
 Pixels = npt.NDArray[np.float32]
 
 OTHER_SEED: Final = 2**63  # The seeds of the two images differ in this bit.
-FIRST_SAMPLES: Final = 16  # samples of each image before the first check of a target error
 
 
 def denoise(first: npt.ArrayLike, second: npt.ArrayLike, albedo: npt.ArrayLike, normal: npt.ArrayLike, *,
