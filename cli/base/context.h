@@ -52,6 +52,11 @@ inline void require(pt_result result) {
         throw Failure(exit_code_of(result), pt_last_error(nullptr));
 }
 
+// A pt_progress_fn whose `user` is a std::function<bool(double)>.
+inline std::int32_t call_listener(void *user, double share) {
+    return (*static_cast<const std::function<bool(double)> *>(user))(share) ? 0 : 1;
+}
+
 // Both texts may be empty. They must outlive the result.
 inline pt_create_info create_info(const std::string &device, const std::string &shader_dir) {
     auto info = sized<pt_create_info>();

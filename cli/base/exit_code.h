@@ -1,5 +1,7 @@
 #pragma once
 
+#include "lib/base/error.h"
+
 #include <pt/pt.h>
 
 #include <stdexcept>
@@ -78,6 +80,16 @@ constexpr ExitCode exit_code_of(pt_result result) {
         return ExitCode::file;
     default:
         return ExitCode::internal;
+    }
+}
+
+// For errors of lib/scene_file/.
+template <typename Call>
+auto with_exit_code(const Call &call) {
+    try {
+        return call();
+    } catch (const pt::Error &error) {
+        throw Failure(exit_code_of(error.code()), error.what());
     }
 }
 

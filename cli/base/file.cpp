@@ -201,8 +201,4 @@ void print_for_people(const std::string &lines, bool standard_output_is_taken) {
         std::cout << platform::printable_lines(lines) << std::flush;
 }
 
-Failure unreadable(const std::string &path, const platform::InputError &error) {
-    return {ExitCode::file, "cannot read " + platform::printable(path) + ": " + error.what()};
-}
-
 } // namespace cli

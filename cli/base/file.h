@@ -3,7 +3,7 @@
 
 #include "cli/base/exit_code.h"
 #include "lib/platform/file.h"
-#include "lib/platform/input_file.h"
+#include "lib/scene_file/read_file.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -83,16 +83,10 @@ void write_report_file(const std::string &path, std::string_view text);
 
 void print_for_people(const std::string &lines, bool standard_output_is_taken);
 
-Failure unreadable(const std::string &path, const platform::InputError &error);
-
+// Throws Failure(ExitCode::file) if the file cannot be read.
 template <typename Read>
 auto read_file(const std::string &path, Read read) {
-    try {
-        platform::InputFile file(path);
-        return read(file);
-    } catch (const platform::InputError &error) {
-        throw unreadable(path, error);
-    }
+    return with_exit_code([&] { return pt::read_file(path, read); });
 }
 
 } // namespace cli

@@ -1,6 +1,6 @@
 #include "cli/compare/kernels.h"
 
-#include "cli/render/render_task.h"
+#include "cli/scene/scene.h"
 #include "lib/scene_file/sphere_columns.h"
 
 #include <algorithm>

@@ -6,8 +6,8 @@
 #include "cli/commands.h"
 #include "cli/film/film.h"
 #include "cli/image/image_file.h"
-#include "cli/render/denoise.h"
-#include "cli/render/render_output.h"
+#include "cli/picture/denoise.h"
+#include "cli/picture/picture_output.h"
 #include "lib/platform/module.h"
 
 #include <nlohmann/json.hpp>

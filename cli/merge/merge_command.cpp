@@ -6,8 +6,8 @@
 #include "cli/commands.h"
 #include "cli/film/film.h"
 #include "cli/image/image_file.h"
-#include "cli/render/render_output.h"
-#include "cli/render/render_report.h"
+#include "cli/picture/picture_output.h"
+#include "cli/picture/render_report.h"
 #include "lib/scene_file/enumerations.h"
 
 #include <nlohmann/json.hpp>

@@ -5,8 +5,8 @@
 #include "cli/base/context.h"
 #include "cli/base/progress.h"
 #include "cli/base/tasks.h"
+#include "cli/picture/picture_layer.h"
 #include "cli/render/checkpoint.h"
-#include "cli/render/picture_layer.h"
 #include "cli/render/render_task.h"
 #include "cli/render/stopping.h"
 

@@ -1,8 +1,8 @@
 #include "cli/render/render_command.h"
 
 #include "cli/base/interrupt.h"
-#include "cli/render/denoise.h"
-#include "cli/render/render_output.h"
+#include "cli/picture/denoise.h"
+#include "cli/render/render_checks.h"
 #include "lib/scene_file/animation.h"
 
 #include <algorithm>

@@ -9,9 +9,12 @@
 #include "cli/base/progress.h"
 #include "cli/base/text.h"
 #include "cli/film/film.h"
-#include "cli/render/denoise.h"
-#include "cli/render/render_output.h"
+#include "cli/picture/denoise.h"
+#include "cli/picture/picture_output.h"
+#include "cli/render/render_checks.h"
 #include "cli/render/warnings.h"
+
+#include <pt/denoise.h>
 
 #include <algorithm>
 #include <array>
@@ -128,10 +131,9 @@ RenderedImage denoised_halves(const RenderOptions &options, const RenderedImage 
     return image;
 }
 
-// If a rule may end the rendering, each round multiplies the samples of both halves by 1.5, as in the Python package.
-// Denoising each round gives its error. After a stop the picture of the last round remains.
+// If a rule may end the rendering, both halves grow in rounds (pt_next_round). Denoising each round gives its error.
+// After a stop the picture of the last round remains.
 ImageRender::Result render_halves(const RenderTask &task, ImageRender &render, const Stop &stop) {
-    constexpr double growth = 1.5;
     const Clock::time_point start = Clock::now();
     const StoppingRules &rules = task.options.stopping;
     std::array<std::vector<std::byte>, 2> films;
@@ -139,7 +141,7 @@ ImageRender::Result render_halves(const RenderTask &task, ImageRender &render, c
     ImageRender::Result result{};
     std::uint32_t done = 0;
     std::uint32_t expected = task.sample_count;
-    std::uint32_t end = task.has_rounds() ? std::min(first_step_length, task.sample_count) : task.sample_count;
+    std::uint32_t end = task.has_rounds() ? std::min(pt_next_round(0), task.sample_count) : task.sample_count;
     while (end > done) {
         const auto run = [&](std::uint32_t half, std::uint32_t other) {
             return render.run({half, end, other, expected, task.has_rounds() ? &films[half] : nullptr}).image;
@@ -156,8 +158,8 @@ ImageRender::Result render_halves(const RenderTask &task, ImageRender &render, c
         const double error = result.image.error.relative_rmse_high;
         if (rules.has_target() && error <= rules.target_error)
             break;
-        const double factor = std::min(rules.growth_left(seconds_since(start)), growth);
-        end = std::min(static_cast<std::uint32_t>(done * factor), task.sample_count);
+        const double in_time = std::min<double>(done * rules.growth_left(seconds_since(start)), task.sample_count);
+        end = std::min(static_cast<std::uint32_t>(in_time), pt_next_round(done));
         if (rules.has_target())
             expected = std::max(end, forecast_sample_count(done, error, rules.target_error, task.sample_count));
         if (end <= done && done < task.sample_count)

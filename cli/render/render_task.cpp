@@ -2,7 +2,7 @@
 
 #include "cli/base/devices.h"
 #include "cli/base/text.h"
-#include "cli/render/render_output.h"
+#include "cli/picture/picture_output.h"
 #include "lib/platform/process.h"
 
 #include <algorithm>
@@ -38,14 +38,6 @@ std::uint32_t image_count(const RenderOptions &options) {
     // These are the second half, the filtered halves, the result, and the filter's inputs and outputs.
     const std::uint32_t of_denoising = options.denoiser.empty() ? 0 : 8;
     return 1 + static_cast<std::uint32_t>(options.wanted_layers().size()) + of_denoising;
-}
-
-// Blames the scene even if the message names no field.
-void require_scene(const Context &context, const SceneFile &scene, pt_result result) {
-    if (result < 0) {
-        const LibraryError error = context.last_error();
-        throw Failure(error.rules.empty() ? exit_code_of(result) : blame(scene, error), explain(scene, error));
-    }
 }
 
 } // namespace
@@ -88,31 +80,11 @@ void require_host_memory(const RenderTask &task) {
                                " of memory, more than the ", memory_text(most), " that this process can have"));
 }
 
-std::int32_t call_listener(void *user, double share) {
-    return (*static_cast<const std::function<bool(double)> *>(user))(share) ? 0 : 1;
-}
-
 void require(const Context &context, const RenderTask &task, pt_result result) {
     const LibraryError error = result < 0 ? context.last_error() : LibraryError{};
     if (!error.rules.empty())
         throw Failure(blame(task.scene, error), explain(task.scene, error));
     context.require(result);
-}
-
-bool describe_scene(const Context &context, const SceneFile &file, const std::function<bool(double)> &goes_on) {
-    std::function<bool(double)> listener = goes_on; // pt_scene.progress_user is not const
-    pt_scene scene = file.scene();
-    const std::vector<pt_sphere_array> arrays = file.sphere_arrays();
-    scene.sphere_arrays = arrays.data();
-    scene.sphere_array_count = static_cast<std::uint32_t>(arrays.size());
-    scene.progress = &call_listener;
-    scene.progress_user = &listener;
-    const pt_result result = pt_set_scene(context.get(), &scene);
-    require_scene(context, file, result);
-    if (result == PT_CANCELLED)
-        return false;
-    require_scene(context, file, pt_set_camera(context.get(), &file.camera));
-    return true;
 }
 
 } // namespace cli

@@ -35,10 +35,4 @@ std::uint64_t image_bytes(const RenderTask &task);
 // Throws Failure and names the option, or the place in the file, that set the refused argument.
 void require(const Context &context, const RenderTask &task, pt_result result);
 
-// A pt_progress_fn whose `user` is a std::function<bool(double)>.
-std::int32_t call_listener(void *user, double share);
-
-// Sets scene and camera. If goes_on(share) returns false, returns false with an unchanged context. Throws Failure.
-bool describe_scene(const Context &context, const SceneFile &file, const std::function<bool(double)> &goes_on);
-
 } // namespace cli

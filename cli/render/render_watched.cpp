@@ -1,8 +1,8 @@
 #include "cli/base/file.h"
 #include "cli/base/interrupt.h"
 #include "cli/base/text.h"
+#include "cli/render/render_checks.h"
 #include "cli/render/render_command.h"
-#include "cli/render/render_output.h"
 #include "cli/render/source_watch.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Warnings about valid input that is probably not intended.
 #pragma once
 
-#include "cli/render/render_report.h"
+#include "cli/picture/render_report.h"
 #include "cli/scene/scene.h"
 
 #include <optional>

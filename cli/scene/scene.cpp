@@ -12,10 +12,15 @@ bool is_of_command(const SceneFile &scene, const BrokenRule &rule) {
 }
 
 std::string read_standard_input() {
-    try {
-        return platform::InputFile().text();
-    } catch (const platform::InputError &error) {
-        throw unreadable("standard input", error);
+    const auto read = [] { return platform::InputFile().text(); };
+    return with_exit_code([&] { return pt::read_named("standard input", read); });
+}
+
+// Blames the scene even if the message names no field.
+void require_scene(const Context &context, const SceneFile &scene, pt_result result) {
+    if (result < 0) {
+        const LibraryError error = context.last_error();
+        throw Failure(error.rules.empty() ? exit_code_of(result) : blame(scene, error), explain(scene, error));
     }
 }
 
@@ -56,6 +61,22 @@ ExitCode blame(const SceneFile &scene, const LibraryError &error) {
     const bool is_usage =
         std::ranges::any_of(error.rules, [&](const BrokenRule &rule) { return blame(scene, rule) == ExitCode::usage; });
     return is_usage ? ExitCode::usage : ExitCode::scene;
+}
+
+bool describe_scene(const Context &context, const SceneFile &file, const std::function<bool(double)> &goes_on) {
+    std::function<bool(double)> listener = goes_on; // pt_scene.progress_user is not const
+    pt_scene scene = file.scene();
+    const std::vector<pt_sphere_array> arrays = file.sphere_arrays();
+    scene.sphere_arrays = arrays.data();
+    scene.sphere_array_count = static_cast<std::uint32_t>(arrays.size());
+    scene.progress = &call_listener;
+    scene.progress_user = &listener;
+    const pt_result result = pt_set_scene(context.get(), &scene);
+    require_scene(context, file, result);
+    if (result == PT_CANCELLED)
+        return false;
+    require_scene(context, file, pt_set_camera(context.get(), &file.camera));
+    return true;
 }
 
 } // namespace cli

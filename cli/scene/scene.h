@@ -4,6 +4,7 @@
 #include "cli/base/exit_code.h"
 #include "lib/scene_file/scene_file.h"
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,15 +13,6 @@ namespace cli {
 
 using pt::SceneFile;
 using pt::SceneOverride;
-
-template <typename Call>
-auto with_exit_code(const Call &call) {
-    try {
-        return call();
-    } catch (const pt::Error &error) {
-        throw Failure(exit_code_of(error.code()), error.what());
-    }
-}
 
 SceneFile parse_scene(std::string text, const std::string &path, std::vector<SceneOverride> overrides = {});
 
@@ -38,5 +30,8 @@ std::string explain(const SceneFile &scene, const LibraryError &error);
 // ExitCode::scene, or ExitCode::usage for the value of an option.
 ExitCode blame(const SceneFile &scene, const BrokenRule &rule);
 ExitCode blame(const SceneFile &scene, const LibraryError &error);
+
+// Sets scene and camera. If goes_on(share) returns false, returns false with an unchanged context. Throws Failure.
+bool describe_scene(const Context &context, const SceneFile &file, const std::function<bool(double)> &goes_on);
 
 } // namespace cli

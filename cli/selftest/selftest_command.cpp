@@ -5,7 +5,7 @@
 #include "cli/base/options.h"
 #include "cli/base/text.h"
 #include "cli/commands.h"
-#include "cli/render/render_task.h"
+#include "cli/scene/scene.h"
 #include "cli/selftest/selftest.h"
 
 #include <nlohmann/json.hpp>

@@ -5,7 +5,7 @@
 #include "cli/commands.h"
 #include "cli/image/image_file.h"
 #include "cli/image/tone_map.h"
-#include "cli/render/render_options.h"
+#include "cli/picture/output_options.h"
 #include "cli/scene/scene.h"
 
 #include <algorithm>

@@ -37,9 +37,7 @@ std::span<const std::byte> film_bytes(const void *data, std::uint64_t size_bytes
 const FilmTile &tile_of(const Film &film, std::uint32_t index) {
     const std::vector<FilmTile> &tiles = film.header().tiles;
     if (index >= tiles.size())
-        throw Error(PT_ERROR_INVALID_ARGUMENT, BrokenRule{.subject = "tile",
-                                                          .value = std::to_string(index),
-                                                          .rule = "must be below " + std::to_string(tiles.size())});
+        refuse_argument("tile", "", std::to_string(index), "must be below " + std::to_string(tiles.size()));
     return tiles[index];
 }
 
@@ -82,10 +80,8 @@ pt_result write_plan(Film &film, double target_error, std::uint32_t most, std::u
         return PT_OK;
     }
     if (count != tile_count)
-        throw Error(PT_ERROR_INVALID_ARGUMENT,
-                    BrokenRule{.subject = "count",
-                               .value = std::to_string(count),
-                               .rule = "must be the number of tiles, " + std::to_string(tile_count)});
+        refuse_argument("count", "", std::to_string(count),
+                        "must be the number of tiles, " + std::to_string(tile_count));
     const TileSamples samples = film.samples_by_tile();
     const std::optional<TileStep> step = film.plan(samples, target_error, most);
     for (std::size_t tile = 0; tile < tile_count; ++tile)
@@ -99,9 +95,7 @@ pt_result write_plan(Film &film, double target_error, std::uint32_t most, std::u
 
 void check_target_error(double target_error) {
     if (!(std::isfinite(target_error) && target_error > 0.0))
-        throw Error(PT_ERROR_INVALID_ARGUMENT, BrokenRule{.subject = "target_error",
-                                                          .value = number_text(target_error),
-                                                          .rule = "must be finite and > 0"});
+        refuse_argument("target_error", "", number_text(target_error), "must be finite and > 0");
 }
 
 pt_film_info info_of(const Film &film) {

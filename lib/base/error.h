@@ -8,6 +8,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace pt {
@@ -68,6 +69,10 @@ private:
     pt_result code_;
     std::shared_ptr<const Violations> broken_rules_;
 };
+
+// Throws PT_ERROR_INVALID_ARGUMENT.
+[[noreturn]] void refuse_argument(std::string_view subject, std::string_view member, std::string_view value,
+                                  std::string_view rule);
 
 const char *result_name(pt_result result) noexcept;
 

@@ -25,8 +25,7 @@ constexpr bool is_struct_size(std::uint32_t size) {
 
 inline void require_not_null(const void *pointer, const char *name) {
     if (!pointer)
-        throw Error(PT_ERROR_INVALID_ARGUMENT,
-                    BrokenRule{.subject = name, .value = "NULL", .rule = "must not be NULL"});
+        refuse_argument(name, "", "NULL", "must not be NULL");
 }
 
 inline BrokenRule wrong_size(const char *name, std::int64_t index, std::uint32_t size, const std::string &rule) {

@@ -55,10 +55,7 @@ std::uint64_t FilmLayout::plane_offset(std::size_t tile, std::size_t plane) cons
 
 void require_room(std::uint64_t size_bytes, std::uint64_t needed) {
     if (size_bytes < needed)
-        throw Error(PT_ERROR_INVALID_ARGUMENT, BrokenRule{.subject = "film",
-                                                          .member = "size_bytes",
-                                                          .value = std::to_string(size_bytes),
-                                                          .rule = "must be >= " + std::to_string(needed)});
+        refuse_argument("film", "size_bytes", std::to_string(size_bytes), "must be >= " + std::to_string(needed));
 }
 
 FilmWriter::FilmWriter(const FilmHeader &header, std::span<std::byte> bytes) : layout_(header), bytes_(bytes) {

@@ -83,8 +83,8 @@ def structs_text(headers, columns):
         lines.append(f"{name} = ctypes.CFUNCTYPE({', '.join(['None' if result == 'void' else NUMBERS[result], *types])})")
     lines += ["", "", "class Sized(ctypes.Structure):",
               '    """A struct that begins with its size."""', "",
-              "    def __init__(self, **fields: Any) -> None:",
-              "        super().__init__(struct_size=ctypes.sizeof(self), **fields)"]
+              "    def __init__(self, *others: Any, **fields: Any) -> None:",
+              "        super().__init__(*others, struct_size=ctypes.sizeof(self), **fields)"]
     known = []
     for name, body in re.findall(r"\bstruct (\w+) \{(.*?)\}", text, re.DOTALL):
         members = [(member, python_type(kind, known)) for member, kind in members_of(body)]

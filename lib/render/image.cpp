@@ -125,12 +125,9 @@ BufferImage validated_image(const pt_buffer_image &source, std::uint32_t width, 
 
 void require_coverage(std::uint32_t quantity, bool has_coverage) {
     if (quantity == PT_QUANTITY_COVERAGE && !has_coverage)
-        throw Error(PT_ERROR_INVALID_ARGUMENT,
-                    BrokenRule{.subject = "image",
-                               .member = "quantity",
-                               .value = std::to_string(quantity),
-                               .rule = "PT_QUANTITY_COVERAGE needs samples that were taken with PT_RENDER_COVERAGE in "
-                                       "pt_render.flags"});
+        refuse_argument("image", "quantity", std::to_string(quantity),
+                        "PT_QUANTITY_COVERAGE needs samples that were taken with PT_RENDER_COVERAGE in "
+                        "pt_render.flags");
 }
 
 ImageRows::ImageRows(const Image &image) :

@@ -44,11 +44,8 @@ void Renderer::require_room_for(std::uint32_t sample_count) const {
 void Renderer::require_tiles(const pt_accumulate_info &wanted) const {
     const std::size_t tiles = samples_.grid().count();
     if (wanted.tile_samples != nullptr && wanted.tile_count != tiles)
-        throw Error(PT_ERROR_INVALID_ARGUMENT,
-                    BrokenRule{.subject = "accumulate",
-                               .member = "tile_count",
-                               .value = std::to_string(wanted.tile_count),
-                               .rule = "must be the number of tiles, " + std::to_string(tiles)});
+        refuse_argument("accumulate", "tile_count", std::to_string(wanted.tile_count),
+                        "must be the number of tiles, " + std::to_string(tiles));
 }
 
 void Renderer::begin(const pt_accumulate_info &wanted, bool is_polled) {

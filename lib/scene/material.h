@@ -16,7 +16,7 @@ struct Material {
     glm::vec3 specular;
     glm::vec3 emission;
     float glossiness;
-    bool hidden = false; // from the camera
+    bool hidden = false; // hidden from the camera
 };
 
 inline bool emits(const Material &material) {

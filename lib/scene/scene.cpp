@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <map>
 #include <utility>
 
@@ -53,9 +54,10 @@ Scene owned_scene(CheckedScene checked, const std::vector<std::uint32_t> *only) 
     Scene owned{std::move(checked.materials), {}, std::move(checked.planes), {starts.begin(), starts.end()}};
     ColoredMaterials colored(owned.materials);
     WorkProgress nobody;
-    const auto take = [&](std::size_t, Sphere sphere) {
-        sphere.material = colored.index_of(sphere.material, sphere.look);
+    // A function, because both loops would have its code.
+    const std::function take = [&](std::uint32_t, const Sphere &sphere) {
         owned.spheres.push_back(sphere);
+        owned.spheres.back().material = colored.index_of(sphere.material, sphere.look);
     };
     if (only == nullptr) {
         owned.spheres.reserve(spheres.size());

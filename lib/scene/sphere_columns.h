@@ -1,5 +1,7 @@
-// The columns of pt_sphere_array. Rules, reader, scene files and Python (generate.py) follow from this list. Columns
-// that change the material are also in material.h.
+// The columns of pt_sphere_array. Rules, reader, scene files and Python (generate.py) follow from this list. By hand
+// come the field in pt.h, the key in lib/scene_file/scene_keys.cpp and the keyword in lib/python/pt/_scene.py. A column
+// that changes the material also has a row in material.h, a constant in shaders/specialization.h and its reader in
+// shaders/scene.glsl.
 #pragma once
 
 // X(name, component, components, types, rule, is_needed, initial, set): `component` is the type in scene files, `types`

@@ -84,7 +84,7 @@ Sphere SphereSource::operator[](std::uint32_t index) const {
     return sphere;
 }
 
-// A sphere is in the last part that begins at or before its index. Empty parts begin where the next part begins.
+// A sphere is in the last part that begins at or before its index.
 const pt_sphere_array *SphereSource::read(std::span<const std::uint32_t> indices, std::span<Sphere> spheres,
                                           const pt_sphere_array *before) const {
     const std::size_t all = indices.size();

@@ -116,7 +116,7 @@ constexpr std::array film_keys{
              "--tonemap"},
     SceneKey{"gamma", number(0.1, 10.0), "Power 1 / gamma instead of the sRGB curve", "the sRGB curve", optional,
              [](Item item, Value value) { item.scene.display.gamma = value.get<double>(); }, "--gamma"},
-    SceneKey{"white", white_point, "Light of this color is shown as grey", "[1, 1, 1]", optional,
+    SceneKey{"white", white_point, "Light shown as grey", "[1, 1, 1]", optional,
              [](Item item, Value value) { put(value, item.scene.display.white); }, "--white"},
 };
 

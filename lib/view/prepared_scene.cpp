@@ -1,6 +1,7 @@
 #include "lib/view/prepared_scene.h"
 
-#include "lib/scene/lamp_tree.h"
+#include "lib/tree/tree_choice.h"
+#include "lib/view/lamp_tree.h"
 
 #include <algorithm>
 #include <cmath>

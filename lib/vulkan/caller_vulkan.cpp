@@ -21,11 +21,6 @@ std::string pointer_text(const void *pointer) {
     return text.data();
 }
 
-[[noreturn]] void refuse(const std::string &field, const std::string &value, const std::string &rule) {
-    throw Error(PT_ERROR_INVALID_ARGUMENT,
-                BrokenRule{.subject = "vulkan", .member = field, .value = value, .rule = rule});
-}
-
 // An instance cannot report its version, but only devices of Vulkan 1.2 should have this function.
 bool offers_version_1_2(const vk::raii::Instance &instance, VkDevice device) {
     return instance.getDispatcher()->vkGetDeviceProcAddr(device, "vkGetSemaphoreCounterValue") != nullptr;
@@ -62,12 +57,13 @@ vk::raii::PhysicalDevice validated_physical_device(const vk::raii::Instance &ins
     const auto found = std::ranges::find(devices, vk::PhysicalDevice(caller.physical_device),
                                          [](const vk::raii::PhysicalDevice &device) { return *device; });
     if (found == devices.end())
-        refuse("physical_device", pointer_text(caller.physical_device), "must be one of vulkan.instance");
+        refuse_argument("vulkan", "physical_device", pointer_text(caller.physical_device),
+                        "must be one of vulkan.instance");
     // This check must come before calls beyond Vulkan 1.0.
     const std::uint32_t device_version = found->getProperties().apiVersion;
     if (device_version >= VK_API_VERSION_1_2 && !offers_version_1_2(instance, caller.device))
-        refuse("instance", pointer_text(caller.instance),
-               "must have been created with VkApplicationInfo.apiVersion >= VK_API_VERSION_1_2");
+        refuse_argument("vulkan", "instance", pointer_text(caller.instance),
+                        "must have been created with VkApplicationInfo.apiVersion >= VK_API_VERSION_1_2");
     require_suitable(describe(*found));
     require_compute(found->getQueueFamilyProperties(), caller.queue_family);
     return *found;
@@ -76,10 +72,11 @@ vk::raii::PhysicalDevice validated_physical_device(const vk::raii::Instance &ins
 void require_compute(std::span<const vk::QueueFamilyProperties> families, std::uint32_t queue_family) {
     const std::string value = number_text(queue_family);
     if (queue_family >= families.size())
-        refuse("queue_family", value,
-               "must be < " + std::to_string(families.size()) + ", the number of families of vulkan.physical_device");
+        refuse_argument("vulkan", "queue_family", value,
+                        "must be < " + std::to_string(families.size()) +
+                            ", the number of families of vulkan.physical_device");
     if (!(families[queue_family].queueFlags & vk::QueueFlagBits::eCompute))
-        refuse("queue_family", value, "must have VK_QUEUE_COMPUTE_BIT");
+        refuse_argument("vulkan", "queue_family", value, "must have VK_QUEUE_COMPUTE_BIT");
 }
 
 void require_suitable(const pt_device_info &physical_device) {

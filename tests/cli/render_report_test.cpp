@@ -1,5 +1,5 @@
 #include "cli/base/devices.h"
-#include "cli/render/render_report.h"
+#include "cli/picture/render_report.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -332,8 +332,8 @@ TEST(Denoise, HasRoundsHalfAsLargeAgain) {
     EXPECT_EQ(pt_next_round(UINT32_MAX - 1), UINT32_MAX);
 }
 
-// The filter spreads a lamp by two pixels. There, errors relative to the raw image would be a million times the raw
-// image's. Errors relative to the filtered image would seem small.
+// The filter spreads a lamp by two pixels. Relative to the raw image, this makes errors a million times as large.
+// Relative to the filtered image they would seem small.
 TEST(Denoise, DoesNotSpreadALamp) {
     constexpr std::size_t first = 64;
     constexpr std::size_t end = 68;

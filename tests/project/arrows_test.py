@@ -7,10 +7,10 @@ import pathlib
 import re
 import sys
 
-ORDERS = {"cli": ("base", "image", "film", "scene", "render", "merge", "denoise", "tonemap", "compare", "selftest",
-                  "course"),
-          "lib": ("platform", "base", "scene", "tree", "film", "denoise", "display", "vulkan", "glsl_module", "kernel", "render", "api",
-                 "scene_file")}
+ORDERS = {"cli": ("base", "devices", "image", "film", "scene", "picture", "render", "merge", "denoise", "tonemap", "compare",
+                  "selftest", "course"),
+          "lib": ("platform", "base", "scene", "tree", "points", "view", "film", "denoise", "display", "vulkan",
+                  "glsl_module", "code", "kernel", "render", "api", "scene_file")}
 PYTHON = ("core", "tachyon", "figures", "view", "farm", "all")
 
 

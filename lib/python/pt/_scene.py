@@ -125,8 +125,8 @@ class SphereArray:
                  "end": end, "opacity": opacity}
         for name, values in given.items():
             count = None if name == "center" else len(self.center)
-            is_column = values is not None and not isinstance(values, Material)
-            setattr(self, name, sphere_column(name, values, count) if is_column else values)
+            setattr(self, name, values if values is None or isinstance(values, Material)
+                    else sphere_column(name, values, count))
         self.copied: tuple[str, ...] = tuple(name for name, value in given.items() if self._is_copy(name, value))
 
     def _is_copy(self, name: str, value: object) -> bool:

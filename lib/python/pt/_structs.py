@@ -15,8 +15,8 @@ pt_take_bytes_fn = ctypes.CFUNCTYPE(c_int32, c_void_p, c_void_p, c_uint64)
 class Sized(ctypes.Structure):
     """A struct that begins with its size."""
 
-    def __init__(self, **fields: Any) -> None:
-        super().__init__(struct_size=ctypes.sizeof(self), **fields)
+    def __init__(self, *others: Any, **fields: Any) -> None:
+        super().__init__(*others, struct_size=ctypes.sizeof(self), **fields)
 
 
 class pt_material(ctypes.Structure):

@@ -1,11 +1,10 @@
+// Writes pictures to files, and checks these files beforehand.
 #pragma once
 
 #include "cli/base/file.h"
-#include "cli/image/image_file.h"
-#include "cli/render/picture_layer.h"
-#include "cli/render/render_options.h"
-#include "cli/render/render_report.h"
-#include "cli/render/render_task.h"
+#include "cli/picture/output_options.h"
+#include "cli/picture/picture_layer.h"
+#include "cli/picture/render_report.h"
 
 #include <cstddef>
 #include <span>
@@ -18,14 +17,10 @@ std::vector<NamedFile> outputs_of(const OutputOptions &options, const std::strin
 
 // Throws Failure(ExitCode::usage) for options that contradict each other, unknown formats, and outputs that are also
 // sources or other outputs.
-void check_names(const RenderOptions &options);
-
 void check_names(const OutputOptions &options, const std::vector<NamedFile> &sources);
 
 // Throws Failure if an image is too large for its format, or if an output file cannot be written.
 void check_files(const OutputOptions &options, const ImageWindow &window);
-
-void check_outputs(const RenderTask &task);
 
 // Reports failures on stderr. Returns the written paths.
 std::vector<std::string> write_images(ImageWriter &writer, const OutputOptions &options, const RenderReport &report,

@@ -1,4 +1,4 @@
-#include "cli/render/denoise.h"
+#include "cli/picture/denoise.h"
 
 #include "cli/base/context.h"
 

@@ -1,4 +1,4 @@
-#include "cli/render/picture_layer.h"
+#include "cli/picture/picture_layer.h"
 
 #include <algorithm>
 #include <cstddef>

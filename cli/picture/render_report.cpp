@@ -1,4 +1,4 @@
-#include "cli/render/render_report.h"
+#include "cli/picture/render_report.h"
 
 #include "cli/base/devices.h"
 #include "cli/base/json.h"

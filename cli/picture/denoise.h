@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cli/render/picture_layer.h"
+#include "cli/picture/picture_layer.h"
 
 #include <span>
 #include <string>
