@@ -59,7 +59,8 @@ SceneFile disc(bool moves);
 inline constexpr double disc_radius = 10.3; // pixels
 inline constexpr Channels disc_emission{4.0, 0.5, 0.1};
 
-// Cosine between the normal and the ray of the picture's middle pixel. The start of the course shows it.
+// Cosine between the normal and the ray of the picture's middle pixel. The kernel that students start with shows this
+// cosine.
 double disc_cosine();
 
 struct DiscSample {

@@ -90,8 +90,8 @@ class Schema(CommandLineTest):
                 self.assertEqual(plain(told), plain(words + default), name)
 
     def refusal(self, scene, is_valid):
-        """Returns who refuses the scene, the reader or, if the schema does, the library; and the message. The program has the same
-        reader."""
+        """Returns what refuses the scene, and the message. The library is asked only if the schema refuses the scene and the reader does
+        not. The program has the same reader."""
         self.write("s.json", json.dumps(scene))
         refused = "reader"
         try:

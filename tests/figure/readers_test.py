@@ -302,7 +302,7 @@ class Messages(InAFolder):
 
 
 class Damaged(InAFolder):
-    """A file that is cut short or has a wrong byte must be read, or be refused with a message that names it."""
+    """A file that is cut short or has a wrong byte must be read, or be refused with a message that names the file."""
 
     def particles(self, name, data):
         try:

@@ -126,7 +126,7 @@ class Large(InAFolder):
 
 
 class Damaged(InAFolder):
-    """A damaged file must be read, or be refused with a message that names it."""
+    """A damaged file must be read, or be refused with a message that names the file."""
 
     def test_damages(self):
         generator = np.random.default_rng(1)

@@ -111,7 +111,8 @@ TEST(Displacement, OfSpheresThatShareAGridWithAGround) {
     EXPECT_EQ(rule->component, 1);
 }
 
-// The capsule passes at a distance of 1, where a pixel's side is 1 / 512. This is 2^-21 of a length of 2^12.
+// The capsule passes at a distance of 1, where a pixel's side is 1 / 512. Capsules are stored to 2^-21 of their length,
+// so the longest permitted one has the length 2^12.
 TEST(Displacement, OfLongCapsules) {
     const auto passing = [](double length) {
         return displaced_capsule({-0.5 * length, 0, -1.5}, {0.5 * length, 0, -1.5}, 0.5);

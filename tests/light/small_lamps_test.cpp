@@ -66,7 +66,7 @@ double share_of(const std::vector<pt::LampPiece> &pieces, std::uint32_t x, std::
 
 constexpr double radius = 0.25;
 constexpr double size = std::numbers::pi * radius * radius;
-constexpr double thin = 2e-4; // Each of 256 lines has an error of at most the square of its height.
+constexpr double thin = 2e-4; // 256 lines cover the lamp's disc. Each has an error of at most the square of its height.
 
 TEST(SmallLamps, AreSpreadOverPixels) {
     for (const pt::Camera &seen_by : {camera, parallel_camera()})
@@ -154,7 +154,7 @@ TEST(SmallLamps, AreSpreadByTheirMotion) {
             seen += piece.pixels * piece.share;
             largest = std::max(largest, piece.share);
         }
-        EXPECT_NEAR(seen, size, 0.01 * size) << way; // The lamp has fewer lines, so the tolerance is larger.
+        EXPECT_NEAR(seen, size, 0.01 * size) << way; // A moving lamp has fewer lines, so the tolerance is larger.
         EXPECT_NEAR(largest, size / way, 0.01 * size / way) << way;
     }
 }

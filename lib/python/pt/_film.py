@@ -197,7 +197,7 @@ class Film:
 
         Returns a result and the wanted sample counts of the 8 x 8 pixel tiles, shape (rows, columns). The result is
         Result.PENDING, Result.TARGET_REACHED, or Result.OK if no tile may have more samples. The film keeps its plans.
-        Raises IncompatibleError if the film's tiles are not made of such squares."""
+        Raises IncompatibleError if pixels of one tile have different samples."""
         with self._lock:
             info, count = self.info, ctypes.c_uint32()
             self._call("pt_plan_film", target_error, most, None, count)

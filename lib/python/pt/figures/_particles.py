@@ -112,7 +112,7 @@ class Table:
     """Contents of a file or an object, before columns have a meaning.
 
     columns   arrays of one or two dimensions; one column may hold positions of two or three components
-    is_text   whether numbers come from text; then their type does not tell the scale of colors
+    is_text   whether numbers come from text; then their type does not determine the scale of colors
     elements  atomic numbers, 0 if unknown; None: columns may have them
     types     labels that are not elements
     rows      indices of the file's atoms in this table; None: all

@@ -184,7 +184,7 @@ class Rows:
         return columns if self._has_all_fields(last == "" if last.dtype.kind == "U" else np.isnan(last), data, height) else None
 
     def _has_all_fields(self, is_missing: Array, data: bytes, height: int) -> bool:
-        """Whether all rows have a last field. pandas cannot tell a missing field from a missing value."""
+        """Whether all rows have a last field. pandas does not distinguish a missing field from a missing value."""
         rows = np.flatnonzero(is_missing)
         if not len(rows) or len(self.layout.names) == 1:
             return True

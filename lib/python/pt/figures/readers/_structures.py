@@ -141,7 +141,7 @@ def _flat(structure: Any) -> Any:
         return gemmi.FlatStructure(structure)
     except RuntimeError:
         for residue in (residue for model in structure for chain in model for residue in chain):
-            residue.subchain = ""  # FlatStructure refuses long names, and figures do not show this one
+            residue.subchain = ""  # FlatStructure refuses long names, and figures do not show this name
         return gemmi.FlatStructure(structure)
 
 
