@@ -104,7 +104,7 @@ public:
     void readback(const Image &image);
     void readback(const BufferImage &image);
 
-    // The image has no gaps. The memory is valid until the next call, set_render() or reload_shaders().
+    // The image has no gaps. The memory is valid until the next call of map(), set_render() or reload_shaders().
     std::span<std::byte> map(const ImageLayout &layout);
 
     FilmHeader film_header();

@@ -68,8 +68,8 @@ struct SceneFile {
     std::optional<std::uint32_t> sample_count;
     pt_display_info display = default_display();
 
-    // Points into this object. Arrays have single spheres if pt_sphere lacks a property of any, then capsules, then
-    // each item that is many.
+    // The result points into this object. The arrays are, in this order, single spheres (if one has a property that
+    // pt_sphere lacks), capsules, and each item of many spheres.
     pt_scene scene() const;
     std::vector<pt_sphere_array> sphere_arrays() const;
     std::size_t

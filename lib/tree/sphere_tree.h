@@ -52,7 +52,7 @@ public:
     // Adds the grid and the words of all spheres in the scene's order.
     void add_to(Digest &digest) const;
 
-    // Expected number of nodes that a ray through the tree visits: the sum of their surfaces divided by the root's
+    // Expected number of nodes that a ray through the tree visits: the sum of all nodes' surfaces divided by the root's
     // surface.
     double cost() const { return cost_; }
 

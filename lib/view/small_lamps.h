@@ -31,8 +31,8 @@ struct LampPiece {
 std::vector<LampPiece> small_lamps_in_view(const PreparedScene &scene, const Projection &projection,
                                            std::uint32_t first_row, std::uint32_t row_count);
 
-// Returns the samples per pixel that are enough for a lamp. Returns 0 if the lamp changes the relative square by less
-// than a hundredth.
+// Returns the samples per pixel that are enough for a lamp. Returns 0 for a faint lamp: x^2 / (x^2 + offset) < 1/100,
+// where x is the lamp's light in its brightest channel.
 std::uint64_t samples_to_hit(const LampPiece &piece, double offset, bool is_random);
 
 struct ExpectedSquares {

@@ -10,7 +10,7 @@ namespace pt {
 namespace {
 
 // Radii of twins differ by at most this fraction, 64 roundings. The error of a distance along a ray is a dozen
-// roundings, and paths may be farther away than the camera.
+// roundings, and paths may be farther from the sphere than the camera is.
 constexpr double same_size = 0x1p-18;
 // A fraction of the distance: four times the spacing of float32.
 constexpr double same_place = 0x1p-21;

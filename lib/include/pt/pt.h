@@ -307,9 +307,9 @@ typedef struct pt_accumulate_info {
      * depend on the split over calls, devices and saved films. */
     double target_error;
     uint32_t sampling; /**< PT_SAMPLING_* */
-    /** The most samples of a pixel after this call and later ones, if target_error is set; otherwise 0. When the pixels
-     * that need more samples reach this number, the other pixels take more, since the target is for the whole image. A
-     * sample_limit below the number that sample_count allows is raised to that number. */
+    /** Largest number of samples of a pixel after this call and later ones, if target_error is set; otherwise 0. When
+     * the pixels that need more samples reach this number, the other pixels take more, since the target is for the
+     * whole image. A sample_limit below the number that sample_count allows is raised to that number. */
     uint32_t sample_limit;
     /** NULL, or the number of samples that each tile takes, 0 to sample_count. target_error must then be 0. A tile
      * takes the first samples that it lacks, from pt_render.first_sample on. Tiles are squares of 8 x 8 pixels, row by
