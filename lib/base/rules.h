@@ -97,7 +97,8 @@ inline const char *glossiness_rule(double value) {
     return value <= 1e9 ? nullptr : "must be <= 1e9";
 }
 
-// The field that has the value. A product has its first field and the rest of the text: {"width", "* height"}.
+// The field that has the value. A product has two parts: its first field and the rest of the text, {"width", "*
+// height"}.
 struct Member {
     Member(const char *field, const char *others = "") : name(field), with(others) {}
 

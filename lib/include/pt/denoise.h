@@ -47,9 +47,9 @@ typedef struct pt_denoise_info {
  * processor. */
 PT_API pt_result pt_denoise(const pt_denoise_info *info, pt_error_estimate *error);
 
-/** Returns the number of samples of each image after the next round, if both images have sample_count of them. A
- * picture with a target error is rendered in rounds and denoised after each. The numbers are 16, 24, 36, ..., each half
- * as large again, so the picture does not depend on the program that renders it. At most 2^32 - 1.
+/** Returns the samples per pixel after the next round of denoising, if both images now have sample_count. All programs
+ * that render to a target error take the same steps: 16, 24, 36, ..., each 1.5 times the previous one, at most 2^32 -
+ * 1.
  *
  * Any thread. Never fails. */
 PT_API uint32_t pt_next_round(uint32_t sample_count);

@@ -46,9 +46,9 @@ typedef struct pt_scene_file_info {
 
 /** Settings of the file for the number of samples and the display (pt/display.h). */
 typedef struct pt_scene_film {
-    uint32_t struct_size;    /**< sizeof(pt_scene_film); the caller sets it */
-    uint32_t sample_count;   /**< samples of a pixel; 0: the file has no number */
-    pt_display_info display; /**< complete for pt_display, except for the pixels; its struct_size is set */
+    uint32_t struct_size;    /**< sizeof(pt_scene_film) */
+    uint32_t sample_count;   /**< samples of a pixel; 0 if the file has none */
+    pt_display_info display; /**< input for pt_display, without pixels; struct_size is set */
 } pt_scene_film;
 
 /** The source of a value that libpt refuses. */
