@@ -49,7 +49,7 @@ constexpr bool is_positive_length(double value) {
     return value >= min_length && value <= max_length;
 }
 
-// Has no branch on the sign, which would be mispredicted.
+// Tests the absolute value, because a branch on the sign would be mispredicted.
 constexpr bool is_length(double value) {
     return value == 0.0 || is_positive_length(__builtin_fabs(value));
 }
@@ -87,8 +87,8 @@ inline const char *color_rule(double value) {
     return value <= 1e18 ? nullptr : "must be <= 1e18";
 }
 
-// A lobe exp(-n a^2 / 2) falls to 1 / e at the angle a = sqrt(2 / n). There errors d = 2^-23 of float32 unit vectors
-// change the exponent by n a d = sqrt(2 n) d, which is 0.5% for n = 1e9.
+// A lobe exp(-n a^2 / 2) falls to 1 / e at the angle a = sqrt(2 / n). At this angle, errors d = 2^-23 of float32 unit
+// vectors change the exponent by n a d = sqrt(2 n) d, which is 0.5% for n = 1e9.
 inline const char *glossiness_rule(double value) {
     if (!std::isfinite(value))
         return "must be finite";

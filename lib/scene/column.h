@@ -27,7 +27,7 @@ Element element(const pt_column &column, std::size_t index) {
 
 static_assert(sizeof(glm::vec3) == 3 * sizeof(float) && sizeof(glm::dvec3) == 3 * sizeof(double));
 
-// Calls use(read). read(index) is a value of float or double.
+// Calls use(read). read(index) is a float or double.
 template <int components, typename Use>
 void with_real(const pt_column &column, Use use) {
     using Float = std::conditional_t<components == 1, float, glm::vec3>;

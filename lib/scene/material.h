@@ -40,7 +40,7 @@ inline std::uint32_t color_word(const glm::vec3 &color) {
 
 struct LookColumn {
     pt_column pt_sphere_array::*column;
-    std::uint32_t constant; // the kernel's constant that is 1 if spheres in the tree have the column
+    std::uint32_t constant; // kernel constant; 1 if tree spheres have the column
     void (*change)(Material &material, const Look &look);
     std::uint32_t (*word)(const Look &look); // in the tree
 };

@@ -54,7 +54,6 @@ Scene owned_scene(CheckedScene checked, const std::vector<std::uint32_t> *only) 
     Scene owned{std::move(checked.materials), {}, std::move(checked.planes), {starts.begin(), starts.end()}};
     ColoredMaterials colored(owned.materials);
     WorkProgress nobody;
-    // A function, because both loops would have its code.
     const std::function take = [&](std::uint32_t, const Sphere &sphere) {
         owned.spheres.push_back(sphere);
         owned.spheres.back().material = colored.index_of(sphere.material, sphere.look);

@@ -38,7 +38,7 @@ bool is_any_translucent(const pt_sphere_array &array) {
     return any;
 }
 
-// at(i) is the row of sphere i. Fields without a column stay as they are.
+// at(i) is the row of sphere i. Fields without a column do not change.
 template <typename At>
 void read_columns(const pt_sphere_array &columns, At at, std::span<Sphere> spheres) {
 #define PT_READ(name, component, components, types, rule, is_needed, initial, set)                                     \

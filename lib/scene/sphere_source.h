@@ -26,7 +26,7 @@ public:
 
     std::size_t size() const { return starts_.back(); }
 
-    // Whether an array with spheres has the column.
+    // Whether any array that is not empty has the column.
     bool has(pt_column pt_sphere_array::*column) const;
 
     bool has_opacities() const { return has_opacities_; }
@@ -74,8 +74,8 @@ private:
         }
     }
 
-    // Returns the array if all spheres are in one. If it is `before`, spheres must have its values, of which only those
-    // with columns change.
+    // Returns the array if all spheres are in one, otherwise NULL. Spheres of the array `before` must have values of
+    // this array already; only fields with columns change.
     const pt_sphere_array *read(std::span<const std::uint32_t> indices, std::span<Sphere> spheres,
                                 const pt_sphere_array *before) const;
 

@@ -57,8 +57,8 @@ struct SceneFile {
     std::vector<std::string> material_names;
     std::vector<pt_material> materials;
     std::vector<std::uint32_t> used_materials; // ascending
-    std::vector<pt_sphere> spheres;            // empty if sphere_items is not
-    SphereItems sphere_items;                  // if some sphere has more than a pt_sphere
+    std::vector<pt_sphere> spheres;            // empty if sphere_items has items
+    SphereItems sphere_items;                  // used if a sphere has a property that pt_sphere lacks
     SphereItems capsules;
     std::vector<pt_plane> planes;
     std::vector<SphereColumns> sphere_columns;

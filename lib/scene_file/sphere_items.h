@@ -30,13 +30,13 @@ class SphereItems {
 public:
     std::vector<SphereItem> items{};
 
-    // Notes that some item has the column. All have a material.
+    // Notes that an item has the column. All items have a material.
     void note(pt_column pt_sphere_array::*column);
 
     // Empty if an item has a column that pt_sphere lacks.
     std::vector<pt_sphere> structs() const;
 
-    // Points into `items`, of which there is at least one.
+    // The result points into `items`, which must not be empty.
     pt_sphere_array array() const;
 
 private:

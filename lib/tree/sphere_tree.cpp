@@ -208,7 +208,7 @@ void SphereTree::add_to(Digest &digest) const {
     for (std::uint32_t place = 0; place < sphere_count_; ++place)
         places[(*spheres_)[place]] = place;
     std::erase(places, nowhere);
-    const bool is_colored = has(&pt_sphere_array::color); // the color is then the first look
+    const bool is_colored = has(&pt_sphere_array::color); // the color is then looks_[0]
     for (const std::uint32_t place : places) {
         const auto component = static_cast<int>(place % 4);
         const SphereWords words = words_of(place);

@@ -23,7 +23,7 @@ constexpr double much_farther = 16.0;
 // Walks are faster in a tree without capsules. So a few capsules, such as the twelve edges of a cell, stay outside.
 constexpr std::size_t few_others = 16;
 
-// Finds the few spheres that reach much_farther times as far from the scene's middle as all others.
+// Finds a few spheres that reach much_farther times as far from the middle as all other spheres.
 class Outlying {
 public:
     explicit Outlying(const SphereSource &spheres) :

@@ -21,12 +21,11 @@ inline constexpr std::uint32_t tree_of_others_from = 24;
 
 std::uint32_t tree_pays_from(const SphereSource &spheres);
 
-// The spheres of a tree.
 struct TreeChoice {
     // Hidden spheres, distant ones and, if there are few, capsules. Indices are ascending.
     std::vector<std::uint32_t> left_out{};
     std::size_t hidden_count = 0;
-    SphereExtent extent{}; // of the tree's spheres; moves: of all, because kernels read all motions or none
+    SphereExtent extent{}; // of tree spheres; `moves` includes other spheres, because kernels read all motions or none
     std::vector<bool> used_materials{};
 };
 
