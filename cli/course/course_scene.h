@@ -11,8 +11,8 @@
 
 namespace cli {
 
-// Five lamps above a tilted floor, seen from above by parallel rays. The lamps are as far away as the sky. The red lamp
-// is above the floor, two green lamps are beside it, and two blue ones are opposite.
+// Five lamps above a tilted floor, seen by parallel rays. The lamps are as far away as the sky. The red lamp is above
+// the floor, two green lamps are beside it, and two blue ones are opposite.
 SceneFile lamps_above_a_floor(std::uint32_t side, std::uint32_t sample_count);
 
 using Channels = std::array<double, 3>;
@@ -59,8 +59,7 @@ SceneFile disc(bool moves);
 inline constexpr double disc_radius = 10.3; // pixels
 inline constexpr Channels disc_emission{4.0, 0.5, 0.1};
 
-// Cosine between the normal and the ray of the picture's middle pixel. The kernel that students start with shows this
-// cosine.
+// Cosine between the normal and the ray of the picture's middle pixel.
 double disc_cosine();
 
 struct DiscSample {

@@ -1,5 +1,5 @@
-// The interface of libpt-image-file.so. Only this module links OpenImageIO, which loads slowly. Program and module are
-// built together, so the interface may have C++ types. Failures are std::runtime_error.
+// The interface of libpt-image-file.so. Only this module links OpenImageIO, which loads slowly. Failures are
+// std::runtime_error.
 #pragma once
 
 #include "cli/base/number.h"

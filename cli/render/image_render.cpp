@@ -223,7 +223,6 @@ pt_stats ImageRender::look(pt_result result) {
     return done;
 }
 
-// The expected total is corrected at each check of a target error.
 void ImageRender::show(const pt_stats &done, bool ended, const std::optional<pt_error_estimate> &error,
                        Clock::time_point now) {
     const auto sample_count = static_cast<std::uint32_t>(std::lround(done.mean_sample_count));

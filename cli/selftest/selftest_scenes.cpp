@@ -153,7 +153,7 @@ SelftestScene weights_of_a_lamp() {
     return {"weights of a lamp", scene, 4.0 * sine * sine, 0.45, sample_rounding};
 }
 
-// The floor chooses one of five lamps in a ring. Directions contribute 27% of the value.
+// The floor chooses one of five lamps in a ring.
 SelftestScene weights_of_a_chosen_lamp() {
     constexpr int lamp_count = 5;
     constexpr double polar = 50.0 / 180.0 * std::numbers::pi;

@@ -5,8 +5,8 @@ table, and draws error against time (benchmark.png, with matplotlib).
 
     python3 -m venv mitsuba && mitsuba/bin/pip install mitsuba
 
-Mitsuba's variant llvm_ad_rgb (CPU) needs LLVM's shared library, and DRJIT_LIBLLVM_PATH names it. In Debian this is
-libllvm19. The variant cuda_ad_rgb runs on a GPU.
+Mitsuba's variant llvm_ad_rgb (CPU) needs LLVM's shared library, and DRJIT_LIBLLVM_PATH names it. The variant
+cuda_ad_rgb runs on a GPU.
 
 cost     median CPU seconds of sampling (GPU: wall seconds)
 error    mean relMSE (README.md) against references (references.py)

@@ -1,9 +1,8 @@
 """Measures how often pt.compare calls equal light different, which changes it finds, and how many samples this takes.
 
-Without --changes and --samples it tests N pairs of images of equal light for each scene and kind of pair. Images have different seeds. The
-scenes are in bench_scenes.py and calibration_scenes.py, or with --random in random_scenes.py. --changes counts the scenes that show a
-change of their brightest lamp, a material, a tile or a density in a kernel. --samples doubles the samples of two images until they show a
-change of a given size.
+Without --changes and --samples it tests N pairs of images of equal light for each scene and kind of pair. --changes counts the scenes that
+show a change of their brightest lamp, a material, a tile or a density in a kernel. --samples doubles the samples of two images until they
+show a change of a given size.
 
 
 """

@@ -15,7 +15,7 @@ M/s, M/CPU s    million samples per wall and per CPU second (not on a GPU)
 --error-samples adds costs at equal error, at the first path length. The error is the relMSE (README.md) at this many
 samples, or 4 times as many in Mitsuba. The reference is the first library's picture with 64 times as many samples. The
 ratio is cost x relMSE, divided by the first library's. "off by" is the difference between the means of the picture and
-the reference, relative and in standard errors. Above 1% no ratio is printed.
+the reference, relative and in standard errors.
 """
 
 import argparse

@@ -227,8 +227,7 @@ TEST(Denoise, KeepsMarksThatHalvesHaveByChance) {
 
 // The ramp rises in the upper half and falls in the lower half, so a filter that shifts it by a pixel keeps the mean.
 // The two halves of the samples have opposite noise, so the denoised image shows which fraction of the filter was
-// chosen. This fraction is nearly 1 at the left, where noise is large. Over a tile of 8 pixels it must change linearly,
-// without steps.
+// chosen. Over a tile of 8 pixels this fraction must change linearly, without steps.
 TEST(Denoise, HasNoSeams) {
     constexpr float slope = 0.02F;
     constexpr std::size_t noisy_width = 100;

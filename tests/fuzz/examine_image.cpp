@@ -87,7 +87,6 @@ void examine_one(const Input &input) {
             "the bits do not depend on how samples are split over calls");
 }
 
-// Repeated surfaces merge, so a changed input may need another kernel.
 std::optional<pt::Features> features(const Input &input) {
     try {
         return pt::view_of(pt::PreparedScene(pt::owned_scene(checked_scene_of(input.scene()))),

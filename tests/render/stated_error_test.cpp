@@ -118,8 +118,7 @@ TEST_F(StatedError, IsThatByTheReference) {
     }
 }
 
-// 64 samples hit a lamp of 1/70 pixel about once, and often twice. If these hits counted as rare samples, the stated
-// error would be ten times too large.
+// 64 samples hit a lamp of 1/70 pixel about once, and often twice. These hits must not count as rare samples.
 TEST_F(StatedError, OfLampsBelowAPixelIsThatByManySamples) {
     constexpr uint32_t width = 64;
     constexpr uint32_t height = 32;
@@ -165,8 +164,7 @@ struct RangesCase {
     Judgement judgement;
 };
 
-// The older part of a range may be small: in [1000, 1500) it has the 24 samples below 1024. The largest ratio of six
-// seeds is 3.05.
+// The older part of a range may be small: in [1000, 1500) it has the 24 samples below 1024.
 constexpr Judgement of_late_range{0.8, 3.2};
 
 TEST_F(StatedError, OfRangesIsThatByTheReference) {

@@ -29,7 +29,7 @@ def render(client: Any, job: Job, samples: int, *, target_error: float = 0.0, sa
     progress       called several times a second with the counts and the film, which it must not change; it ends the
                    rendering by returning True
 
-    Raises FarmError if no worker can render. Deaths of workers do not change the bits. If this process dies, another one
+    Raises FarmError if no worker can render. If this process dies, another one
     can resume from the checkpoint.
     """
     if options.mixed:

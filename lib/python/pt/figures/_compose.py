@@ -18,7 +18,7 @@ def compose(radiance: npt.NDArray[np.float32], stage: Any, shares: Shares, expos
 
     Debevec 1998, "Rendering Synthetic Objects into Real Scenes", section 5: the background
     gets the change that the particles make. A pixel with coverage a has the light T(radiance) + (1 - a) (1 - T(stage)) over white, with the
-    exposure T. The floor is then white and has no horizon. Alpha is the smallest that gives this light over white.
+    exposure T. Alpha is the smallest that gives this light over white.
     """
     if shares.flat is not None:
         radiance = radiance + np.float32(FLAT) * (shares.flat + (1.0 - shares.shapes[:, :, None]) * stage - radiance)
