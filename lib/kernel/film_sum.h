@@ -1,4 +1,3 @@
-// Sums the films of several devices in the first device's memory (add.comp).
 #pragma once
 
 #include "lib/kernel/device_film.h"

@@ -1,4 +1,3 @@
-// Chooses the sizes of submissions so that they take equal times.
 #pragma once
 
 #include <cstddef>

@@ -5,7 +5,7 @@
 #pragma once
 
 // X(name, component, components, types, rule, is_needed, initial, set): `component` is the type in scene files, `types`
-// are those of callers (column.h). The rule of a material index is nullptr. `set` puts a value into a Sphere, after the
+// the types of callers (column.h). The rule of a material index is nullptr. `set` puts a value into a Sphere, after the
 // columns before it.
 #define PT_SPHERE_COLUMNS(X)                                                                                           \
     X(center, double, 3, real, length_rule, true, 0, sphere.center = value)                                            \

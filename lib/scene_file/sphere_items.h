@@ -1,4 +1,3 @@
-// Single spheres or capsules of a scene file.
 #pragma once
 
 #include "lib/scene/sphere_columns.h"

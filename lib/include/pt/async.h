@@ -2,12 +2,12 @@
  * pt: samples in the background, while the program does something else.
  *
  * pt_start begins a pt_accumulate and returns at once, pt_poll continues it, and pt_cancel ends it early. Neither the
- * image's bits nor the number of samples depends on when pt_poll is called. lib/examples/moving_camera.c has a loop.
+ * image's bits nor the number of samples depends on when pt_poll is called.
  *
  * - Devices: The library starts no threads. Between calls each device has at most two submissions, and only pt_poll
  *   gives it more. To keep devices busy, let pt_poll wait, or make submissions longer than the time between two polls
  *   (pt_create_info.submit_milliseconds).
- * - Threads: Any thread may poll, one at a time. Any thread may cancel, also while another one polls.
+ * - Threads: Any thread may poll, one at a time.
  * - State: Samples are being taken after pt_start has returned PT_PENDING, until pt_poll returns another result.
  *   Meanwhile other calls on the context return PT_ERROR_INVALID_STATE. Exceptions are pt_cancel,
  *   pt_get_context_device, pt_last_error, pt_get_broken_rule and pt_destroy, which waits for the current submissions.

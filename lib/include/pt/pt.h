@@ -163,9 +163,9 @@ typedef struct pt_sphere_array {
      * PT_ERROR_INVALID_SCENE. If length + radius exceeds the distance from the camera, the surface is off by up to
      * 2^-21 * (length + radius). */
     pt_column end;
-    /** Probability in [0, 1] that a ray hits the sphere. Otherwise the ray passes through it. Every ray, also a shadow
-     * ray, decides at random for each sphere. So the mean fraction of light that passes several spheres is the product
-     * of their 1 - opacity. FLOAT32 or FLOAT64, rounded to a multiple of 1/255; default 1.
+    /** Probability in [0, 1] that a ray hits the sphere. Every ray, also a shadow ray, decides at random for each
+     * sphere. So the mean fraction of light that passes several spheres is the product of their 1 - opacity. FLOAT32 or
+     * FLOAT64, rounded to a multiple of 1/255; default 1.
      *
      * A sphere with an opacity below 1 is always in a tree (PT_FEATURE_TREE), and its radius is rounded by up to 2^-16
      * of its value. If its material emits or is hidden, pt_set_scene returns PT_ERROR_INVALID_SCENE. */
@@ -308,8 +308,8 @@ typedef struct pt_accumulate_info {
     double target_error;
     uint32_t sampling; /**< PT_SAMPLING_* */
     /** Largest number of samples of a pixel after this call and later ones, if target_error is set; otherwise 0. When
-     * the pixels that need more samples reach this number, the other pixels take more, since the target is for the
-     * whole image. A sample_limit below the number that sample_count allows is raised to that number. */
+     * the pixels that need more samples reach this number, the other pixels take more. A sample_limit below the number
+     * that sample_count allows is raised to that number. */
     uint32_t sample_limit;
     /** NULL, or the number of samples that each tile takes, 0 to sample_count. target_error must then be 0. A tile
      * takes the first samples that it lacks, from pt_render.first_sample on. Tiles are squares of 8 x 8 pixels, row by

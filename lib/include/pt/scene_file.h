@@ -15,7 +15,7 @@
 extern "C" {
 #endif
 
-/** A scene file in memory. It owns all arrays of its scene. */
+/** A scene file in memory. */
 typedef struct pt_scene_file pt_scene_file;
 
 /** A value that replaces one of the file. */

@@ -1,5 +1,5 @@
 /** @file
- * pt: kernels compiled at run time, for people who change them.
+ * pt: kernels compiled at run time.
  *
  * pt_create_info.shader_dir is a folder of GLSL files like the library's shaders/. pt_create compiles them, and
  * pt_reload_shaders compiles them again: pathtrace.comp, fold.comp, add.comp, resolve.comp, estimate.comp,

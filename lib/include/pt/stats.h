@@ -41,8 +41,7 @@ typedef struct pt_stats {
 } pt_stats;
 
 /** Bits of pt_error_estimate.uncertain: why a stated error may be far off. The bounds are then wider by a factor of
- * two. Small lamps in view are an exception: they raise only the error and its upper bound. More samples help against
- * all reasons. */
+ * two. Small lamps in view are an exception: they raise only the error and its upper bound. */
 enum {
     PT_UNCERTAIN_RMSE = 1, /**< rmse comes from fewer than 4 pixels: rare bright samples, or a small lamp */
     /** relative_rmse comes from fewer than 4 pixels, or from light that only single samples have found. If that light
