@@ -1,4 +1,4 @@
-// Words and instructions of SPIR-V modules (Khronos, "SPIR-V Specification", version 1.5).
+// SPIR-V modules (Khronos, "SPIR-V Specification", version 1.5).
 #pragma once
 
 #include <cstddef>

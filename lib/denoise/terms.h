@@ -1,4 +1,3 @@
-// The terms of one value in the formulas of combination.h.
 #pragma once
 
 #include "lib/denoise/halves.h"

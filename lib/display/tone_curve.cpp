@@ -25,8 +25,7 @@ Color clamp(Color color) {
     return color;
 }
 
-// Reinhard et al. 2002, "Photographic Tone Reproduction for Digital Images", eq. 3. Applied to luminance, because
-// compression of each channel would desaturate colors.
+// Reinhard et al. 2002, eq. 3. Applied to luminance, because compression of each channel would desaturate colors.
 Color reinhard(Color color) {
     const double divisor = 1.0 + luminance(color);
     for (double &component : color)

@@ -1,4 +1,3 @@
-// A kernel that reads the scene, except the path tracer.
 #pragma once
 
 #include "lib/view/view.h"

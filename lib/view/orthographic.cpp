@@ -111,7 +111,7 @@ private:
         return glm::dot(center, camera_.forward) + std::sqrt((radius - most) * (radius + most));
     }
 
-    // The depth is least at an end of the motion. The ball around the whole motion would give a worse bound.
+    // The depth is least at an end of the motion.
     double depth_on_way(const MovingBall &sphere) const override {
         const double open = glm::dot(sphere.open, camera_.forward);
         return open + std::min(glm::dot(sphere.way, camera_.forward), 0.0) - sphere.radius;

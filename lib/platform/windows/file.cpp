@@ -50,7 +50,6 @@ int open_to_read(const fs::path &path) {
         _O_RDONLY | _O_BINARY);
 }
 
-// Without FILE_SHARE_DELETE, other processes cannot remove the file.
 int create_file(const fs::path &path) {
     return opened(CreateFileW(path.c_str(), GENERIC_WRITE | DELETE, FILE_SHARE_READ, nullptr, CREATE_NEW,
                               FILE_ATTRIBUTE_NORMAL, nullptr),
