@@ -6,6 +6,7 @@
 
 namespace pt {
 
+// Symbols of combination.h, for one value.
 struct Terms {
     double noise;       // s
     double first_move;  // p
