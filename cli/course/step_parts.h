@@ -1,4 +1,3 @@
-// Measurements of each step, and the values of right kernels and of usual mistakes.
 #pragma once
 
 #include "cli/course/verdict.h"

@@ -99,7 +99,7 @@ bool write(Encoding &encoding, const ImageData &image, std::span<png_text> texts
                  image.has_alpha() ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     set_color_space(encoding, image.gamma);
-    // This filter is faster than the default, and files are as small.
+    // This filter is faster than the default.
     png_set_filter(encoding.png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
     png_set_compression_level(encoding.png, 4);
     png_set_text(encoding.png, encoding.info, texts.data(), static_cast<int>(texts.size()));

@@ -44,8 +44,7 @@ bool Checkpoint::finish(std::uint32_t sample_count) {
     return sample_count > 0 && sample_count == written_count_;
 }
 
-// Each file is complete an interval after the previous one, so at most the samples of an interval can be lost. The
-// device waits only while the film is copied.
+// Each file is complete an interval after the previous one, so at most the samples of an interval can be lost.
 void Checkpoint::save(std::uint32_t sample_count) {
     take_in();
     saved_at_ = Clock::now();

@@ -1,4 +1,4 @@
-"""error_and_time.py for Mitsuba (benchmark.py says how to install it)."""
+"""error_and_time.py for Mitsuba (benchmark.py)."""
 
 import argparse
 import json

@@ -214,7 +214,7 @@ TEST_F(OperatingRange, DistanceOfAWorld) {
             store(look.direction, scene.camera.target);
             scene.camera.vertical_fov = 2.0 * std::atan(1.7 / distance);
             scene.render.max_path_length = 4;
-            if (exponent == 4) // From here on, perspective changes the light by less than a thousandth.
+            if (exponent == 4) // Perspective then changes the light by less than a thousandth.
                 expected = light_of(scene);
             measure(distance, scene, scene.camera, {1, 1, 0, 0}, expected, 65536);
         }

@@ -158,8 +158,7 @@ class Mitsuba:
 
 
 def choose_samples(program, length, options):
-    """Returns a power of four, because Mitsuba's sampler rounds up to powers of four. Rendering takes at least a
-    quarter of the wanted time. Also compiles the kernel."""
+    """Returns a power of four, because Mitsuba's sampler rounds up to powers of four. Also compiles the kernel."""
     samples = 4
     program.render(length, samples)
     while samples < MOST_SAMPLES and program.render(length, samples)[0] < options.seconds / 4:

@@ -194,8 +194,8 @@ def typical_radius(positions: Array) -> float:
     if not len(first):
         return 1.0
     median = float(np.median(first))
-    # Among random points, a twentieth of the nearest distances is below 0.27 medians on a surface, sqrt(log(0.95) / log(0.5)), and below
-    # 0.42 in space, the cube root. Atoms are at least half of the median apart.
+    # For random points, a twentieth of the distances is below sqrt(log(0.95) / log(0.5)) = 0.27 medians on a surface, and 0.42 in space.
+    # Atoms are at least half of the median apart.
     if len(fourth) and float(np.quantile(first, 0.05)) < 0.5 * median:
         median = float(np.median(fourth))
     return 0.5 * median

@@ -85,8 +85,8 @@ def lamps_of(lights: list[Light], around: Surroundings) -> tuple[list[Sphere], l
     """Returns a ball for each light, and warnings about lights without one.
 
     A white surface at distance d that faces a ball of radius r and radiance L has the radiance L (r / d)^2. L is chosen so that the
-    camera's target gets the light's radiance. A light without a radius gets a hidden lamp of 1/50 of its distance. A radius is at most half
-    of the distance to the nearest surface and, if visible, to the camera.
+    camera's target gets the light's radiance. A radius is at most half of the distance to the nearest surface and, if visible, to the
+    camera.
     """
     extent = around.extent(lights)
     lamps: list[Sphere] = []
