@@ -59,7 +59,7 @@ struct Encoding {
     }
 };
 
-// Text chunks are Latin-1, and international ones UTF-8. The result points into both arguments.
+// Text chunks are in Latin-1, and international text chunks in UTF-8. The result points into both arguments.
 std::vector<png_text> texts_of(const ImageData &image, std::span<std::string> values) {
     std::vector<png_text> texts;
     for (std::size_t i = 0; i < values.size(); ++i) {

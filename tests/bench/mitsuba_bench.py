@@ -1,4 +1,4 @@
-"""error_and_time.py for Mitsuba (benchmark.py)."""
+"""Does the same as error_and_time.py with Mitsuba. benchmark.py describes Mitsuba."""
 
 import argparse
 import json

@@ -113,6 +113,6 @@ class RealDevice(CommandLineTest):
 
         whole, pieces = stats(), stats("--piece-rows", "8")
         self.assertLess(pieces["device_bytes"], whole["device_bytes"])
-        # A piece has fewer pixels than the picture, so the margin of its error is larger.
+        # A piece has fewer pixels than the picture, so its error has a larger margin.
         for key in ("rmse", "relative_rmse"):
             self.assertAlmostEqual(pieces[key], whole[key], delta=0.25 * whole[key])

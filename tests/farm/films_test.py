@@ -56,8 +56,8 @@ class Unreadable:
 
 
 def faulty(name, part, codecs):
-    """Damages every second one of a worker's first films. Workers start at different places in FAULTS, so that a few
-    parts show all faults."""
+    """Damages every other film among a worker's first films. Workers start at different places in FAULTS, so that a few parts show all
+    faults."""
     worker = distributed.get_worker()
     worker.films = getattr(worker, "films", 0) + 1
     time.sleep(0.03)
