@@ -25,7 +25,7 @@ constexpr std::uint32_t reported_side = 32; // side of the regions of smallest_t
 // to 100 ln 2 * 18 u + 203 u = 8.7e-5, from x and from the power (accuracy.cpp, u = 2^-24).
 constexpr double rounding_share = 1e-4;
 
-// Bentkus and Dzindzalieta 2015. shaders/README.md, section 11, derives the test.
+// The constant of shaders/README.md, section 11.
 constexpr double sign_constant = 3.178;
 
 constexpr double quantile_99 = 2.326;

@@ -63,7 +63,7 @@ using PartCounts = std::array<std::uint64_t, gpu::FILM_PARTS>;
 
 // Returns the index with the most trailing zero bits among all that have samples on both sides, if this index is a
 // multiple of 8. Otherwise returns the next multiple of 8 after the last sample, because parts of fewer than 8 samples
-// hardly show an error. shaders/README.md, section 11, has the reasons.
+// hardly show an error.
 std::uint64_t split_of(const SampleRange &hull);
 
 PartCounts part_counts(const SampleSet &samples);

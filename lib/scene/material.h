@@ -32,7 +32,7 @@ struct Look {
     glm::vec3 color{1.0F};
 };
 
-// Stores ten bits of each component's square root, which resolves dark colors better.
+// The square root resolves dark colors better.
 inline std::uint32_t color_word(const glm::vec3 &color) {
     const glm::uvec3 steps(glm::sqrt(glm::clamp(color, 0.0F, 1.0F)) * float{gpu::TREE_COLOR_STEPS} + 0.5F);
     return steps.r | steps.g << 10 | steps.b << 20;

@@ -133,7 +133,7 @@ private:
 
     // The cone's direction nearest to the center hits the ball first. With b = d cos(angle), the distance is b -
     // sqrt(r^2 - d^2 sin^2(angle)) = (d^2 - r^2) / (b + sqrt(r^2 - d^2 sin^2(angle))). The second form avoids
-    // cancellation for small distant balls.
+    // cancellation.
     double depth_of_ball(const glm::dvec3 &center, double radius) const override {
         const double distance = glm::length(center);
         const double power = (distance - radius) * (distance + radius);

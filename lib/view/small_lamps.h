@@ -21,8 +21,7 @@ struct LampPiece {
     double pixels = 1.0;
     bool is_spread = false; // whether even quasi-random samples hit the piece at random
 
-    // Samples per pixel for 8 hits of random points or 3 of quasi-random ones. The number of hits then has a relative
-    // standard deviation of at most a third.
+    // Samples per pixel for 8 hits of random points or 3 of quasi-random ones.
     double enough_samples(bool is_random) const;
 };
 
