@@ -99,7 +99,7 @@ BinCut best_cut(const Part &part, const Bins &bins) {
 
 } // namespace
 
-// The loop has no branches, which would be mispredicted.
+// The loop has no branches, because they would be mispredicted.
 Halves binned_halves(const Part &part) {
     const Bins bins(part);
     const BinCut cut = best_cut(part, bins);
