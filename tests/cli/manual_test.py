@@ -159,28 +159,36 @@ class RealDevice(CommandLineTest):
     def test_ranges_of_keys(self):
         found = 0
         for section in SECTIONS:
-            limits = {names_in(row[0])[0]: (0.0, 1e18) if "color" in row[2] else range_of(row[2])
-                      for row in section_rows(section)}
+            rows = {names_in(row[0])[0]: row[2] for row in section_rows(section)}
+            limits = {key: (0.0, 1e18) if "color" in text else range_of(text) for key, text in rows.items()}
             limits = {key: ends for key, ends in limits.items() if ends}
             found += len(limits)
+
+            def of_form(key, number, rows=rows):
+                return [number] * 3 if rows[key].startswith("each") else number
+
             for end in 0, 1:
-                self.render_scene(0, section, {key: ends[end] for key, ends in limits.items()})
+                self.render_scene(0, section, {key: of_form(key, ends[end]) for key, ends in limits.items()})
             for key, ends in limits.items():
                 for number in beyond(*ends):
-                    self.render_scene(3, section, {key: number})
+                    self.render_scene(3, section, {key: of_form(key, number)})
                     self.assertIn(key, self.errors)
-        self.assertEqual(found, 9)
+        self.assertEqual(found, 10)
 
     def test_ranges_of_options(self):
-        ranges = {row[0].strip("`"): range_of(row[2]) for row in rows_after("\n## `pt render`\n")}
-        ranges = {option: ends for option, ends in ranges.items() if ends}
+        rows = {row[0].strip("`"): row[2] for row in rows_after("\n## `pt render`\n")}
+        ranges = {option: ends for option, ends in ((option, range_of(text)) for option, text in rows.items()) if ends}
+
+        def given(option, number):
+            return f"{option}={number},{number},{number}" if rows[option].startswith("`R,G,B`") else f"{option}={number}"
+
         for option, ends in ranges.items():
             for number in beyond(*ends):
-                self.expect(2, "render", "scene.json", "-o", "a.png", f"{option}={number}", error=option)
-        self.assertEqual(len(ranges), 10)
+                self.expect(2, "render", "scene.json", "-o", "a.png", given(option, number), error=option)
+        self.assertEqual(len(ranges), 11)
         ranges["--spp"] = (1, 1)
         for end in 0, 1:
-            options = [f"{option}={ends[end]}" for option, ends in ranges.items()]
+            options = [given(option, ends[end]) for option, ends in ranges.items()]
             self.expect(0, "render", "scene.json", "-o", "a.png", "--size", "4x2", *options)
 
     def test_reports_have_the_keys_that_are_told(self):
