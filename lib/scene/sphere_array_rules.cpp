@@ -77,10 +77,10 @@ public:
         materials_(materials),
         progress_(progress) {}
 
-    template <Rule rule, int components>
+    template <Rule rule, typename Component, int components>
     void values(const ColumnKind &kind) const {
         const pt_column &column = array_.*kind.column;
-        if constexpr (rule == nullptr)
+        if constexpr (std::is_integral_v<Component>)
             materials();
         else if (column.type != PT_TYPE_SRGB8)
             with_real<components>(column, [&](auto read) {
@@ -152,7 +152,9 @@ private:
 };
 
 #define PT_KIND(name, component, components, types, rule, is_needed, initial, set)                                     \
-    {#name, &pt_sphere_array::name, components, types##_type, is_needed, &ColumnChecker::values<rule, components>},
+    {#name,      &pt_sphere_array::name,                                                                               \
+     components, types##_type,                                                                                         \
+     is_needed,  &ColumnChecker::values<rule, component, components>},
 const ColumnKind kinds[] = {PT_SPHERE_COLUMNS(PT_KIND)};
 #undef PT_KIND
 
