@@ -52,7 +52,7 @@ SampleKey key_of_pixel(uvec2 seed, uint pixel)
     return SampleKey(seed, pixel, 0u, 0u, pcg4d(uvec4(pixel, 0u, seed)));
 }
 
-// The factor of the pixel's hash in the shift of a block (shaders/README.md, section 8).
+// Returns the block's odd number, which shift_of() multiplies with the pixel's hash (shaders/README.md, section 8).
 uint odd_number(uint block)
 {
     uint odd = block * 0x9e3779b9u + 0xc2b2ae35u;
@@ -66,7 +66,7 @@ bool all_in_table()
     return path_blocks(MAX_PATH_LENGTH, CAMERA_BLOCKS, LAMP_COUNT, SPOT_COUNT) <= TABLE_BLOCKS;
 }
 
-// Returns numbers in units of 2^-32. The exclusive or with a shift turns the table's Owen scrambling into another one.
+// Returns numbers in units of 2^-32. XOR with shift_of() turns the table's Owen scrambling into another one.
 // Halton points are rotated modulo 1 (Cranley and Patterson 1976).
 uvec4 sample_words(SampleKey key, uint block)
 {

@@ -44,8 +44,8 @@ PT_SPECIALIZED(TREE_INSIDE, 34, 1)     // 1: paths may be inside a sphere of the
 PT_SPECIALIZED(POINT_BLOCKS, 12, 1024)
 PT_SPECIALIZED(WALK_TRIPS, 27, 0)      // iteration limit of a step (tree_path.glsl); 0: each walk runs to its end
 PT_SPECIALIZED(SPOT_COUNT, 28, 0)
-// Numbers of surfaces hidden from the camera. They are last among the lamps outside the tree and the other spheres, and
-// first among the skies and the planes.
+// Numbers of surfaces hidden from the camera. Hidden surfaces are last in the lists of lamps (outside the tree) and of
+// other spheres, and first in the lists of skies and of planes.
 PT_SPECIALIZED(HIDDEN_LAMPS, 30, 0)
 PT_SPECIALIZED(HIDDEN_SKIES, 31, 0)
 PT_SPECIALIZED(HIDDEN_OTHERS, 32, 0)

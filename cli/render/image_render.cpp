@@ -47,7 +47,7 @@ void join(RenderedImage &image, const pt_stats &piece, const pt_error_estimate &
     whole.mean_sample_count = mean(whole.mean_sample_count, piece.mean_sample_count);
     whole.rejected_samples += piece.rejected_samples;
     whole.device_bytes = std::max(whole.device_bytes, piece.device_bytes);
-    whole.submit_count = piece.submit_count; // counts all pieces of the context
+    whole.submit_count = piece.submit_count; // includes earlier pieces
     whole.device_seconds = piece.device_seconds;
     image.error.uncertain |= error.uncertain;
     using Error = pt_error_estimate;

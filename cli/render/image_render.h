@@ -57,7 +57,7 @@ public:
 
     // A whole picture, or one round of one half of a denoised picture.
     struct Round {
-        std::uint32_t half;                    // only the last half's first round reads layers
+        std::uint32_t half;                    // 0 or 1
         std::uint32_t end;                     // samples of this half at the end of the round
         std::uint32_t other;                   // samples of the other half
         std::uint32_t expected;                // samples of a half after all rounds

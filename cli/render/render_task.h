@@ -21,7 +21,7 @@ struct RenderTask {
     // Reads files of columns. Throws Failure, also if a column's file is an output.
     void load();
 
-    // Whether denoised halves grow until a rule is satisfied.
+    // Whether the halves of a denoised image take samples in rounds, until a stopping rule is satisfied.
     bool has_rounds() const { return half_count() > 1 && options.stopping.has_any(); }
 
     std::uint32_t half_count() const { return options.denoiser.empty() ? 1 : 2; }

@@ -110,8 +110,8 @@ SelftestScene huge_ball_as_floor() {
 
 // A glossy floor in a dome of radiance 1. Let g be the angle between a direction and the mirror direction r. The
 // integral of (n + 2) / (2 pi) cos^n(g) times the direction's cosine is the cosine of r, because only components along
-// r contribute. The horizon does not clip the lobe. Directions in the plane of incidence have the variance 1 / n. The
-// relative standard deviation of a sample's cosine is therefore tan / sqrt(n) at the angle of incidence.
+// r contribute. The horizon does not clip the lobe. Directions in the plane of incidence have the variance 1 / n. With
+// the angle of incidence a, the relative standard deviation of a sample's cosine is therefore tan(a) / sqrt(n).
 SelftestScene sharp_lobe() {
     const SceneFile scene = floor_scene(R"(
         "materials": {"dome": {"emission": 1}, "floor": {"specular": 1, "glossiness": 1e6}},
@@ -254,7 +254,7 @@ SelftestCheck SelftestScene::judge(std::span<const float> radiance) const {
 
 // A wall of albedo rho and radius R around a black lamp of radius r. Directions by the cosine hit the lamp with
 // probability q = (r / R)^2. Paths of L vertices carry rho Le q sum_{j <= L - 2} (rho (1 - q))^j. A path that ends on
-// the lamp lacks the later terms, which are less than sqrt(q) of the value.
+// the lamp lacks the rest of the sum, which adds less than sqrt(q) to the relative standard deviation.
 SelftestScene lamp_in_a_ball() {
     constexpr double rho = 0.5;
     constexpr double emission = 100.0;

@@ -81,7 +81,7 @@ Node node_of(std::span<const ScaledLamp> lamps) {
             spreads[end] += lamp.power * (distance * distance + 3.0 * lamp_radius * lamp_radius);
         }
     }
-    // At other times, the kernel rounds positions to 2^-24 of their size.
+    // Between the ends of a motion, the kernel rounds positions to 2^-24 of their size.
     radius += 0x1p-21 * (std::max(glm::length(middles[0]), glm::length(middles[1])) + radius);
     const double spread = std::max(
         {spreads[0] / node.power, spreads[1] / node.power, radius * radius / gpu::LAMP_TREE_BALL * (1.0 + 0x1p-20)});

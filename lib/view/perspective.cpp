@@ -83,8 +83,8 @@ public:
         const double depth = first_depth(scene, tree);
         if (depth == out_of_view)
             return ahead;
-        // Rays start before the first surface, by the lens's radius and the view's width, so that rounding puts no
-        // start behind it. A lens's rays must start before the focus.
+        // Rays start in front of the first surface, at a distance of the lens's radius and half the view's width.
+        // Rounding then puts no start behind the surface. A lens's rays must start before the focus.
         const double tangent = std::tan(half_angle_);
         ahead.start_distance = std::max((1.0 - tangent) * depth - camera_.lens_radius, 0.0);
         if (camera_.has_lens()) {

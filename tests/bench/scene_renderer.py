@@ -1,4 +1,4 @@
-"""Does not use the package's objects, so that several libraries can be measured."""
+"""Renders scenes by the C functions, because the package loads only one libpt and benchmarks compare several."""
 
 import array
 import ctypes

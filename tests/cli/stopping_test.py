@@ -57,7 +57,7 @@ class ExitCodes(CommandLineTest):
         self.assertEqual(self.files(), ["a.png", "c.ptfilm"])
 
     def test_another_signal_later_ends_it_at_once(self):
-        """A sample takes an hour. The program stops itself during the first one, so both signals come during this sample."""
+        """A sample takes an hour. The program suspends itself during the first one, so both signals come within it."""
         process = self.start("render", COURSEWORK, "-o", "a.png", "--spp", "2", "--size", "2x2",
                              FAKE_PT_SAMPLE_MS=3_600_000, FAKE_PT_SIGNAL=f"{int(signal.SIGSTOP)}:1")
         state = os.waitid(os.P_PID, process.pid, os.WSTOPPED | os.WEXITED | os.WNOWAIT)

@@ -351,7 +351,7 @@ TEST(Exposure, HardlyDependsOnLamps) {
     EXPECT_NEAR(automatic_exposure(radiance), -20.0 / 100.0, 0.01);
 }
 
-// Half of the pixels are at most 2^-40. Their weight is 128 * 2^-40 / level.
+// Pixels below 1/128 of the mean have less weight: those of 2^-40 have 128 * 2^-40 / mean.
 TEST(Exposure, WhatLooksBlackDoesNotCount) {
     EXPECT_EQ(automatic_exposure(grey({0.18F, 0x1p-40F, 0.18F, 0x1p-60F})), 0.0);
 }

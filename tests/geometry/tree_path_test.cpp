@@ -1,4 +1,4 @@
-// Walks in steps (tree_path.glsl) must have the bits of whole walks if the driver rounds as written.
+// A walk in steps (tree_path.glsl) gives the bits of a whole walk, if the driver neither contracts nor reorders.
 #include "tests/geometry/tree_scenes.h"
 #include "tests/kernel/kernel_render.h"
 #include "tests/support/checked_scene_of.h"

@@ -25,7 +25,7 @@ def arrows(part, includes):
 
 
 def room_of(module):
-    """Modules of the package itself are one room, and the package names all of them."""
+    """Returns the subpackage, "core" for a module pt._*, and "all" for pt, which imports every module."""
     first = module.split(".")[1:2] or ["all"]
     return "core" if first[0].startswith("_") else first[0]
 

@@ -24,7 +24,7 @@ class Course:
         self.state: dict[str, Any] | None = None
 
     def check(self) -> None:
-        """Ends an earlier check."""
+        """Starts a check. Ends an earlier one first."""
         self.close()
         with self._lock:
             self.state = None
