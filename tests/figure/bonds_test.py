@@ -8,7 +8,7 @@ import pt
 from pt.figures import _bonds, _neighbours
 from pt.figures._bonds import bonds_of
 from pt.figures._cell import Cell
-from pt.figures._figure import prepare
+from pt.figures._drawn import prepare
 from pt.figures._options import Options
 from pt.figures._overlay import rays_per_side
 from pt.figures._particles import Bonds, Particles

@@ -5,7 +5,8 @@ import unittest
 import numpy as np
 import pt
 from pt.figures._cell import Cell
-from pt.figures._figure import Staged, prepare
+from pt.figures._drawn import prepare
+from pt.figures._figure import Staged
 from pt.figures._options import Options
 from pt.figures._overlay import pixels_per_length
 from pt.figures._particles import Particles

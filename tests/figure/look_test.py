@@ -5,7 +5,7 @@ import pt
 from pt.figures import _elements as elements
 from pt.figures._colors import Swatches, colors_of, distinct_colors
 from pt.figures._compose import compose, lay_over
-from pt.figures._figure import prepare
+from pt.figures._drawn import prepare
 from pt.figures._options import Options
 from pt.figures._overlay import Shares
 from pt.figures._particles import Particles

@@ -4,7 +4,7 @@ import unittest.mock
 
 import numpy as np
 import pt
-from pt._display import to_pixels
+from pt._display import automatic_exposure, to_pixels
 from pt.figures._noise import FIRST_SAMPLES, MOST_NOISE, Noise, squares_of, until_invisible
 
 POSITIONS = np.random.default_rng(5).normal(size=(60, 3))
@@ -40,7 +40,7 @@ class Sampled:
 
 def sampled(spread, covered, stated=1.0):
     shares = []
-    image = until_invisible(Sampled(spread, stated), None, None, None, lambda light: to_pixels(light, 0.0, np.uint16), covered,
+    image = until_invisible(Sampled(spread, stated), None, None, None, lambda light, _: to_pixels(light, 0.0, np.uint16), covered,
                             shares.append)
     error = to_pixels(image.radiance, 0.0, np.uint16) - to_pixels(np.float32([0.3]).repeat(3), 0.0, np.uint16).astype(float)
     blocks = error.reshape(SHAPE[0] // 2, 2, SHAPE[1] // 2, 2, 3).mean(axis=(1, 3)) / 257
@@ -81,7 +81,7 @@ class Numbers(unittest.TestCase):
     def test_squares_have_the_slope_of_srgb(self):
         """The signal is 1.055 L^(1/2.4) - 0.055. The picture of 16 bits rounds by 0.002 steps."""
         light = np.float32([[[0.05, 0.2, 0.9]]])
-        found = np.sqrt(squares_of(lambda each: to_pixels(each, 0.0, np.uint16), light, np.full_like(light, 0.002)))
+        found = np.sqrt(squares_of(lambda each, _: to_pixels(each, 0.0, np.uint16), light, np.full_like(light, 0.002)))
         slopes = 255 * 1.055 / 2.4 * light.astype(float)**(1 / 2.4 - 1)
         self.assertAlmostEqual(found[0, 0], 0.5 * 0.002 * np.sqrt(np.square(slopes).mean()), delta=0.002)
 
@@ -110,6 +110,12 @@ class Pictures(unittest.TestCase):
         self.assertTrue(found.noise.low < measured < 1.15 * found.noise.high, (found, measured))
         self.assertIn("noise ", repr(found))
         self.assertTrue((few.sample_count == 4).all() and few.noise.high == np.inf)
+
+    def test_an_automatic_exposure_hides_no_noise(self):
+        """Its own exposure for the darker and for the brighter picture would cancel most of their difference."""
+        found = pt.figure(POSITIONS, radius=0.3, size=(64, 48), samples=16, exposure=None)
+        same = pt.figure(POSITIONS, radius=0.3, size=(64, 48), samples=16, exposure=automatic_exposure(found.radiance))
+        self.assertEqual(found.noise, same.noise)
 
     def test_a_draft_says_how_to_denoise(self):
         with unittest.mock.patch("pt.figures._figure.find_library", return_value=None), unittest.mock.patch(

@@ -5,7 +5,8 @@ import unittest
 
 import numpy as np
 import pt
-from pt.figures._figure import prepare, view_of
+from pt.figures._drawn import prepare
+from pt.figures._figure import view_of
 from pt.figures._marks import MARGIN
 from pt.figures._options import Options
 from pt.figures._particles import Particles

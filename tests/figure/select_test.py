@@ -5,7 +5,7 @@ import numpy as np
 from pt.figures._bonds import models_of
 from pt.figures._cell import Cell
 from pt.figures._colors import colors_of
-from pt.figures._figure import prepare
+from pt.figures._drawn import prepare
 from pt.figures._options import Options
 from pt.figures._particles import Particles
 from pt.figures._radii import opacities_of, radii_of

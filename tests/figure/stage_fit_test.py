@@ -4,7 +4,8 @@ import unittest
 import numpy as np
 import pt
 from pt.figures._cell import Cell
-from pt.figures._figure import prepare, view_of
+from pt.figures._drawn import prepare
+from pt.figures._figure import view_of
 from pt.figures._layout import MARGIN, VERTICAL_FOV, Layout
 from pt.figures._options import VIEWS, Options
 from pt.figures._particles import Particles

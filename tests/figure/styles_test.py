@@ -7,7 +7,8 @@ from pt.figures import _elements as elements
 from pt.figures._cell import Cell
 from pt.figures._colors import colors_of
 from pt.figures._compose import compose, lay_over
-from pt.figures._figure import Staged, prepare
+from pt.figures._drawn import prepare
+from pt.figures._figure import Staged
 from pt.figures._options import STYLES, Options
 from pt.figures._overlay import Shares
 from pt.figures._particles import Particles

@@ -2,7 +2,7 @@ import unittest
 
 import numpy as np
 from pt.figures._elements import VAN_DER_WAALS_RADII
-from pt.figures._figure import prepare
+from pt.figures._drawn import prepare
 from pt.figures._options import Options
 from pt.figures._particles import Particles
 from pt.figures._radii import radii_of

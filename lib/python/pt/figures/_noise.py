@@ -24,7 +24,7 @@ FLOOR: Final = 0.4  # the same of an even floor, where noise shows most
 SHARE: Final = 1.03  # a round aims at this multiple of the allowed square, because quasi-random samples do better than random ones
 SEQUENCES: Final = 1.0 / math.sqrt(7.0)  # the error of quasi-random points may be this fraction of the stated one
 
-Show = Callable[[Array], Array]
+Show = Callable[[Array, Array], Array]  # 16 bits of light, with the exposure of an image
 
 
 @dataclass(frozen=True)
@@ -49,8 +49,8 @@ class Noise:
 
 
 def squares_of(show: Show, radiance: npt.NDArray[np.float32], error: npt.NDArray[np.float32]) -> Doubles:
-    """Returns a quarter of each pixel's squared error in steps of 1/255, averaged over channels. `show` gives 16 bits."""
-    darker, brighter = (show(np.maximum(each, 0.0)).astype(np.float64) for each in (radiance - error, radiance + error))
+    """Returns a quarter of each pixel's squared error in steps of 1/255, averaged over channels."""
+    darker, brighter = (show(np.maximum(each, 0.0), radiance).astype(np.float64) for each in (radiance - error, radiance + error))
     squares: Doubles = np.square((brighter - darker) * (0.25 * 255.0 / 65535.0)).mean(axis=2)
     return squares
 

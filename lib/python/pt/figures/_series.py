@@ -10,7 +10,8 @@ import numpy as np
 from pt._fit import Doubles
 from pt.figures._bonds import BALL_SHARE
 from pt.figures._colors import ColorBar, Swatches
-from pt.figures._figure import Drawn, Staged, prepare, view_of
+from pt.figures._drawn import Drawn, prepare
+from pt.figures._figure import Staged, view_of
 from pt.figures._layout import Layout, View
 from pt.figures._options import Options, Radius
 from pt.figures._particles import Particles
