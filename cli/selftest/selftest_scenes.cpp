@@ -110,8 +110,8 @@ SelftestScene huge_ball_as_floor() {
 
 // A glossy floor in a dome of radiance 1. Let g be the angle between a direction and the mirror direction r. The
 // integral of (n + 2) / (2 pi) cos^n(g) times the direction's cosine is the cosine of r, because only components along
-// r contribute. The horizon does not clip the lobe. Directions in the plane of incidence have the variance 1 / n. With
-// the angle of incidence a, the relative standard deviation of a sample's cosine is therefore tan(a) / sqrt(n).
+// r contribute. The horizon does not clip the lobe. Directions in the plane of incidence have the variance 1 / n. So a
+// sample's cosine has the relative standard deviation tan(a) / sqrt(n) at the angle of incidence a.
 SelftestScene sharp_lobe() {
     const SceneFile scene = floor_scene(R"(
         "materials": {"dome": {"emission": 1}, "floor": {"specular": 1, "glossiness": 1e6}},

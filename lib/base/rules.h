@@ -78,23 +78,23 @@ inline const char *share_rule(double value) {
     return is_share(value) ? nullptr : "must lie in [0, 1]";
 }
 
-// float32 must hold products of two colors: 1e36 < 2^128.
-inline const char *color_rule(double value) {
+inline const char *amount_rule(double value, double most, const char *most_rule) {
     if (!std::isfinite(value))
         return "must be finite";
     if (value < 0.0)
         return "must be >= 0";
-    return value <= 1e18 ? nullptr : "must be <= 1e18";
+    return value <= most ? nullptr : most_rule;
+}
+
+// float32 must hold products of two colors: 1e36 < 2^128.
+inline const char *color_rule(double value) {
+    return amount_rule(value, 1e18, "must be <= 1e18");
 }
 
 // A lobe exp(-n a^2 / 2) falls to 1 / e at the angle a = sqrt(2 / n). At this angle, errors d = 2^-23 of float32 unit
 // vectors change the exponent by n a d = sqrt(2 n) d, which is 0.5% for n = 1e9.
 inline const char *glossiness_rule(double value) {
-    if (!std::isfinite(value))
-        return "must be finite";
-    if (value < 0.0)
-        return "must be >= 0";
-    return value <= 1e9 ? nullptr : "must be <= 1e9";
+    return amount_rule(value, 1e9, "must be <= 1e9");
 }
 
 // The field that has the value. A product has two parts: its first field and the rest of the text, {"width", "*

@@ -45,7 +45,7 @@ public:
     }
 
     ImagePlace place(const glm::dvec3 &point) const override {
-        return place_at(point, 0.5 * height_ / (0.5 * camera_.vertical_extent), 0.0);
+        return place_at(point, height_ / camera_.vertical_extent, 0.0);
     }
 
     glm::dvec3 origin(const glm::dvec3 &point) const override {

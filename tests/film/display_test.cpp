@@ -351,7 +351,7 @@ TEST(Exposure, HardlyDependsOnLamps) {
     EXPECT_NEAR(automatic_exposure(radiance), -20.0 / 100.0, 0.01);
 }
 
-// Pixels below 1/128 of the mean have less weight: those of 2^-40 have 128 * 2^-40 / mean.
+// Pixels below 1/128 of the mean have less weight. A value v gets the weight 128 v / mean.
 TEST(Exposure, WhatLooksBlackDoesNotCount) {
     EXPECT_EQ(automatic_exposure(grey({0.18F, 0x1p-40F, 0.18F, 0x1p-60F})), 0.0);
 }
