@@ -10,7 +10,7 @@ const float NO_HIT = 3.0e38;
 
 // A ball at one time, or the first end of a capsule. axis.xyz is the vector to the other end, axis.w is 1 / its length.
 struct Ball {
-    vec4 centre_radius;
+    vec4 center_radius;
     vec4 axis;
 };
 
@@ -18,29 +18,29 @@ const vec4 NO_AXIS = vec4(0.0);
 
 const bool HAS_WAYS = MOTION == 1u || KINDS > KIND_BALL;
 
-Ball ball_from(vec4 centre_radius, vec4 way, float time, uint kinds)
+Ball ball_from(vec4 center_radius, vec4 way, float time, uint kinds)
 {
     bool is_capsule = (kinds & KIND_CAPSULE) != 0u && way.w > 0.0;
     if (MOTION == 1)
-        centre_radius.xyz += is_capsule ? vec3(0.0) : time * way.xyz;
-    return Ball(centre_radius, is_capsule ? way : NO_AXIS);
+        center_radius.xyz += is_capsule ? vec3(0.0) : time * way.xyz;
+    return Ball(center_radius, is_capsule ? way : NO_AXIS);
 }
 
 // The point of a capsule's axis that is nearest to a given point. to_first is the vector from that point to the first
 // end.
-vec3 nearest_centre(Ball ball, vec3 centre, vec3 to_first, uint kinds)
+vec3 nearest_center(Ball ball, vec3 center, vec3 to_first, uint kinds)
 {
     if ((kinds & KIND_CAPSULE) == 0u)
-        return centre;
+        return center;
     vec4 axis = ball.axis;
-    return centre + clamp(-dot(to_first, axis.xyz * axis.w) * axis.w, 0.0, 1.0) * axis.xyz;
+    return center + clamp(-dot(to_first, axis.xyz * axis.w) * axis.w, 0.0, 1.0) * axis.xyz;
 }
 
 // sphere_distance() for scenes whose paths are never inside a sphere.
-float distance_from_outside(vec3 to_centre, float radius, vec3 direction, bool leaving)
+float distance_from_outside(vec3 to_center, float radius, vec3 direction, bool leaving)
 {
-    float b = dot(to_centre, direction);
-    vec3 across = to_centre - b * direction;
+    float b = dot(to_center, direction);
+    vec3 across = to_center - b * direction;
     float squared_half_chord = radius * radius - dot(across, across);
     float nearer = b - sqrt(squared_half_chord); // undefined if the ray misses
     return !leaving && squared_half_chord >= 0.0 && b > 0.0 ? nearer : NO_HIT;
@@ -49,12 +49,12 @@ float distance_from_outside(vec3 to_centre, float radius, vec3 direction, bool l
 // Distance along a unit vector to a sphere, or NO_HIT (shaders/README.md, section 3). If `leaving`, the ray starts on
 // the sphere, on the side given by `inside`. Otherwise `outside` gives the side of the ray's start. Callers pass the
 // side, because rounding may flip the sign of the distance.
-float sphere_distance(vec3 to_centre, float radius, vec3 direction, bool leaving, bool inside, bool outside)
+float sphere_distance(vec3 to_center, float radius, vec3 direction, bool leaving, bool inside, bool outside)
 {
     if (INSIDE == 0)
-        return distance_from_outside(to_centre, radius, direction, leaving);
-    float b = dot(to_centre, direction);
-    vec3 across = to_centre - b * direction;
+        return distance_from_outside(to_center, radius, direction, leaving);
+    float b = dot(to_center, direction);
+    vec3 across = to_center - b * direction;
     float squared_half_chord = radius * radius - dot(across, across);
     float half_chord = sqrt(at_least(squared_half_chord, 0.0));
     float distance = outside ? b - half_chord : b + half_chord;
@@ -66,10 +66,10 @@ float sphere_distance(vec3 to_centre, float radius, vec3 direction, bool leaving
 
 // Whether the sphere blocks a shadow ray that starts outside all spheres: b - sqrt(r^2 - l^2) < distance, without the
 // root. at_end: the ray starts or ends on the sphere.
-bool sphere_blocks(vec3 to_centre, float radius, vec3 direction, bool at_end, float distance)
+bool sphere_blocks(vec3 to_center, float radius, vec3 direction, bool at_end, float distance)
 {
-    float b = dot(to_centre, direction);
-    vec3 across = to_centre - b * direction;
+    float b = dot(to_center, direction);
+    vec3 across = to_center - b * direction;
     float beyond = at_least(b - distance, 0.0);
     bool met_before = dot(across, across) + beyond * beyond < radius * radius;
     return !at_end && b > 0.0 && met_before;
@@ -108,20 +108,20 @@ vec3 to_met(Ball ball, vec3 to_first, vec3 direction, bool to_last, uint kinds)
 {
     if ((kinds & KIND_CAPSULE) == 0u)
         return to_first;
-    return to_first + swept_to(to_first, ball.axis, ball.centre_radius.w, direction, to_last);
+    return to_first + swept_to(to_first, ball.axis, ball.center_radius.w, direction, to_last);
 }
 
 // Whether a ray from another surface starts outside a sphere. With TREE_OPACITY the two surfaces may coincide, for
 // example at an atom and the end of its bond. If the start is within `rounding` of the sphere, the ray's direction
 // decides.
-bool is_outside(vec3 to_centre, float radius, vec3 direction, float rounding)
+bool is_outside(vec3 to_center, float radius, vec3 direction, float rounding)
 {
-    float squared = dot(to_centre, to_centre);
+    float squared = dot(to_center, to_center);
     if (TREE_OPACITY == 0)
         return squared > radius * radius;
     float above = squared - radius * radius;
     float nearly = 2.0 * radius * rounding;
-    return above > nearly || (above > -nearly && dot(to_centre, direction) < 0.0);
+    return above > nearly || (above > -nearly && dot(to_center, direction) < 0.0);
 }
 
 // sphere_distance() for a ball or capsule. from_side is the vector to the first center from the point that determines
@@ -129,9 +129,9 @@ bool is_outside(vec3 to_centre, float radius, vec3 direction, float rounding)
 float ball_distance(Ball ball, vec3 to_first, vec3 from_side, vec3 direction, bool leaving, bool inside, float rounding,
                     uint kinds)
 {
-    vec3 to_centre = nearest_centre(ball, from_side, from_side, kinds);
-    float radius = ball.centre_radius.w;
-    bool outside = is_outside(to_centre, radius, direction, rounding);
+    vec3 to_center = nearest_center(ball, from_side, from_side, kinds);
+    float radius = ball.center_radius.w;
+    bool outside = is_outside(to_center, radius, direction, rounding);
     if ((kinds & KIND_CAPSULE) == 0u)
         return sphere_distance(to_first, radius, direction, leaving, inside, outside);
     bool to_last = INSIDE == 1 && (leaving ? inside : !outside);
@@ -142,8 +142,8 @@ float ball_distance(Ball ball, vec3 to_first, vec3 from_side, vec3 direction, bo
 
 bool ball_blocks(Ball ball, vec3 to_first, vec3 direction, bool at_end, float distance, uint kinds)
 {
-    vec3 to_centre = to_met(ball, to_first, direction, false, kinds);
-    return sphere_blocks(to_centre, ball.centre_radius.w, direction, at_end, distance);
+    vec3 to_center = to_met(ball, to_first, direction, false, kinds);
+    return sphere_blocks(to_center, ball.center_radius.w, direction, at_end, distance);
 }
 
 #endif

@@ -6,11 +6,11 @@
 void see_sphere(inout Hit hit, vec3 origin, vec3 direction, uint sphere, float time)
 {
     Ball ball = ball_at(sphere, time);
-    vec3 to_centre = STARTS_AHEAD == 1 ? ball.centre_radius.xyz - origin : ball.centre_radius.xyz;
-    vec3 from_side = ball.centre_radius.xyz;
+    vec3 to_center = STARTS_AHEAD == 1 ? ball.center_radius.xyz - origin : ball.center_radius.xyz;
+    vec3 from_side = ball.center_radius.xyz;
     if (STARTS_ON_DISC && KNOWN_SIDES == 0)
-        from_side = to_centre;
-    keep_closer(hit, ball_distance(ball, to_centre, from_side, direction, false, false, 0.0, KINDS), sphere);
+        from_side = to_center;
+    keep_closer(hit, ball_distance(ball, to_center, from_side, direction, false, false, 0.0, KINDS), sphere);
 }
 
 void see_plane(inout Hit hit, vec3 origin, vec3 direction, uint plane, float time)

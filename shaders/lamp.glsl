@@ -8,7 +8,7 @@
 #include "vertex.glsl"
 
 struct LampView {
-    vec3 to_centre;
+    vec3 to_center;
     float squared_distance;
     float inverse_distance;
     float squared_radius;
@@ -21,12 +21,12 @@ LampView view_lamp(Vertex vertex, uint lamp, float time)
 {
     vec4 sphere = bound_of_lamp(lamp, time);
     LampView view;
-    view.to_centre = sphere.xyz - vertex.position;
+    view.to_center = sphere.xyz - vertex.position;
     view.squared_radius = sphere.w * sphere.w;
-    view.squared_distance = dot(view.to_centre, view.to_centre);
+    view.squared_distance = dot(view.to_center, view.to_center);
     view.inverse_distance = inversesqrt(view.squared_distance);
     view.squared_sine = at_most(view.squared_radius / view.squared_distance, 1.0);
-    float highest_cosine = at_most((dot(vertex.normal, view.to_centre) + sphere.w) * view.inverse_distance, 1.0);
+    float highest_cosine = at_most((dot(vertex.normal, view.to_center) + sphere.w) * view.inverse_distance, 1.0);
     bool sampled = view.squared_sine < 1.0 && highest_cosine > 0.0 && surface_of_lamp(lamp) != vertex.surface;
     view.weight = sampled ? emission_of_lamp(lamp).a * view.squared_sine * highest_cosine : 0.0;
     return view;
@@ -61,7 +61,7 @@ LampSample sample_lamp(LampChoice choice, vec2 u)
 {
     LampView view = choice.view;
     float h = u.x * one_minus_cos(view);
-    vec3 direction = direction_about(view.to_centre * view.inverse_distance, narrow_cos_sin(h), u.y);
+    vec3 direction = direction_about(view.to_center * view.inverse_distance, narrow_cos_sin(h), u.y);
     float half_chord = sqrt(at_least(view.squared_radius - view.squared_distance * (h * (2.0 - h)), 0.0));
     float distance = view.squared_distance * view.inverse_distance * (1.0 - h) - half_chord;
     float density = cone_density(view);

@@ -72,15 +72,15 @@ float rounding_of(Start start)
 
 float distance_to_sphere(Start start, vec3 direction, uint sphere, Ball ball)
 {
-    vec3 to_first = ball.centre_radius.xyz - start.origin;
-    vec3 from_side = KNOWN_SIDES == 1 ? ball.centre_radius.xyz : to_first;
+    vec3 to_first = ball.center_radius.xyz - start.origin;
+    vec3 from_side = KNOWN_SIDES == 1 ? ball.center_radius.xyz : to_first;
     return ball_distance(ball, to_first, from_side, direction, sphere == start.surface, start.inside, rounding_of(start),
                          KINDS);
 }
 
-float distance_to_lamp(Start start, vec3 direction, uint surface, vec4 centre_radius)
+float distance_to_lamp(Start start, vec3 direction, uint surface, vec4 center_radius)
 {
-    return distance_to_sphere(start, direction, surface, Ball(centre_radius, NO_AXIS));
+    return distance_to_sphere(start, direction, surface, Ball(center_radius, NO_AXIS));
 }
 
 float distance_to_plane(Start start, vec3 direction, uint plane, Level level, float time)
@@ -103,7 +103,7 @@ void shade_sphere(inout bool blocked, Start start, ShadowRay shadow, uint sphere
         return;
     }
     bool at_end = sphere == start.surface || (sphere < WALKED_LAMPS && sphere == shadow.lamp);
-    vec3 to_first = ball.centre_radius.xyz - start.origin;
+    vec3 to_first = ball.center_radius.xyz - start.origin;
     bool between = ball_blocks(ball, to_first, shadow.direction, at_end, shadow.distance, KINDS);
     blocked = blocked || between;
 }
@@ -119,7 +119,7 @@ void shade_plane(inout bool blocked, Start start, ShadowRay shadow, uint plane, 
 ShadowRay ended_as_met(ShadowRay shadow, Start start, float time)
 {
     if (CLOSE_LAMPS == 1 && shadow.distance > 0.0 && is_walked_lamp(shadow.lamp)) {
-        vec4 lamp = ball_among(WALKED_LAMPS, shadow.lamp, time).centre_radius;
+        vec4 lamp = ball_among(WALKED_LAMPS, shadow.lamp, time).center_radius;
         float distance = distance_to_lamp(start, shadow.direction, shadow.lamp, lamp);
         shadow.distance = distance < NO_HIT ? distance : shadow.distance;
     }

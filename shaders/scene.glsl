@@ -177,8 +177,8 @@ Ball ball_of(uint surface, float time)
 vec4 bound_of_lamp(uint lamp, float time)
 {
     if (TREE_LAMPS > 0u && lamp >= WALKED_LAMPS)
-        return tree_ball(tree_lamp_place(lamp - WALKED_LAMPS), time).centre_radius;
-    return ball_among(WALKED_LAMPS, lamp, time).centre_radius;
+        return tree_ball(tree_lamp_place(lamp - WALKED_LAMPS), time).center_radius;
+    return ball_among(WALKED_LAMPS, lamp, time).center_radius;
 }
 
 bool is_walked_lamp(uint surface) { return TREE_LAMPS == 0u || surface < WALKED_LAMPS; }

@@ -80,7 +80,7 @@ MirrorPoint mirror_point_of_plane(Vertex vertex, vec4 lamp, uint surface)
 // to it (ratio of heights). The iteration's error raises the variance but causes no bias.
 MirrorPoint mirror_point_of_sphere(Vertex vertex, vec4 lamp, uint surface, float time)
 {
-    vec4 sphere = ball_of(surface, time).centre_radius;
+    vec4 sphere = ball_of(surface, time).center_radius;
     vec3 a = vertex.position - sphere.xyz;
     vec3 b = lamp.xyz - sphere.xyz;
     float radius = sphere.w;

@@ -27,11 +27,11 @@ uvec4 tree_sphere_word(uint place) { return tree_word(place); }
 // The ball relative to the point `base` + `rest` on the grid.
 Ball tree_ball_from(uvec4 word, ivec3 base, vec3 rest, uint place, float time)
 {
-    vec3 centre = (vec3(ivec3(word.xyz) - base) - rest) * tree_step();
+    vec3 center = (vec3(ivec3(word.xyz) - base) - rest) * tree_step();
     vec4 way = vec4(0.0);
     if (MOTION == 1 || TREE_KINDS > KIND_BALL)
         way = uintBitsToFloat(tree_word(tree_first_motion() + place));
-    return ball_from(vec4(centre, uintBitsToFloat(word.w)), way, tree_shutter_open() + time * tree_shutter_time(),
+    return ball_from(vec4(center, uintBitsToFloat(word.w)), way, tree_shutter_open() + time * tree_shutter_time(),
                      TREE_KINDS);
 }
 

@@ -36,12 +36,12 @@ void keep_closer_of_tree(inout Hit hit, inout uvec4 hit_word, float distance, ui
 float distance_in_tree(Start start, GridRay ray, vec3 direction, uint surface, Ball ball, float time)
 {
     bool leaving = surface == start.surface;
-    vec3 to_first = ball.centre_radius.xyz;
+    vec3 to_first = ball.center_radius.xyz;
     if (TREE_INSIDE == 0) {
-        vec3 to_centre = to_met(ball, to_first, direction, false, TREE_KINDS);
-        return ray.advance + distance_from_outside(to_centre, ball.centre_radius.w, direction, leaving);
+        vec3 to_center = to_met(ball, to_first, direction, false, TREE_KINDS);
+        return ray.advance + distance_from_outside(to_center, ball.center_radius.w, direction, leaving);
     }
-    vec3 from_side = KNOWN_SIDES == 1 ? tree_ball(surface - SURFACE_COUNT, time).centre_radius.xyz : to_first;
+    vec3 from_side = KNOWN_SIDES == 1 ? tree_ball(surface - SURFACE_COUNT, time).center_radius.xyz : to_first;
     return ray.advance +
            ball_distance(ball, to_first, from_side, direction, leaving, start.inside, rounding_of(start), TREE_KINDS);
 }
@@ -57,7 +57,7 @@ bool blocks_in_tree(Start start, GridRay ray, ShadowRay shadow, vec3 direction, 
         return before && surface != shadow.lamp;
     }
     bool at_end = surface == start.surface || surface == shadow.lamp;
-    return ball_blocks(ball, ball.centre_radius.xyz, direction, at_end, shadow.distance - ray.advance, TREE_KINDS);
+    return ball_blocks(ball, ball.center_radius.xyz, direction, at_end, shadow.distance - ray.advance, TREE_KINDS);
 }
 
 ShadowRay ended_as_met_in_tree(ShadowRay shadow, Start start, float time)

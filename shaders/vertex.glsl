@@ -27,11 +27,11 @@ Vertex vertex_at(Arrival arrival, float time)
     vec3 normal;
     if (is_sphere(surface)) {
         Ball ball = ball_of(surface, time);
-        vec3 centre = ball.centre_radius.xyz;
-        centre = nearest_centre(ball, centre, centre - position, KINDS);
-        vec3 from_centre = position - centre; // normalize() takes three divisions on lavapipe
-        normal = from_centre * inversesqrt(dot(from_centre, from_centre));
-        position = centre + ball.centre_radius.w * normal;
+        vec3 center = ball.center_radius.xyz;
+        center = nearest_center(ball, center, center - position, KINDS);
+        vec3 from_center = position - center; // normalize() takes three divisions on lavapipe
+        normal = from_center * inversesqrt(dot(from_center, from_center));
+        position = center + ball.center_radius.w * normal;
     } else {
         Level level = level_among(surface, position, time);
         normal = CURVATURE == 1 ? normalize(level.gradient) : level.gradient;

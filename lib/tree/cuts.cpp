@@ -18,19 +18,19 @@ int bins_for(std::size_t spheres) {
 class Bins {
 public:
     explicit Bins(const Part &part) :
-        axis_(part.centres.longest_axis()),
+        axis_(part.centers.longest_axis()),
         count_(bins_for(part.items.size())),
-        low_(part.centres.low[axis_]),
-        scale_(static_cast<float>(count_) / part.centres.extent(axis_)) {}
+        low_(part.centers.low[axis_]),
+        scale_(static_cast<float>(count_) / part.centers.extent(axis_)) {}
 
     int count() const { return count_; }
 
     int bin_of(const TreeItem &item) const {
-        return std::min(static_cast<int>((item.centre_radius[axis_] - low_) * scale_), count_ - 1);
+        return std::min(static_cast<int>((item.center_radius[axis_] - low_) * scale_), count_ - 1);
     }
 
     bool is_before(const TreeItem &item, int bin) const {
-        return (item.centre_radius[axis_] - low_) * scale_ < static_cast<float>(bin);
+        return (item.center_radius[axis_] - low_) * scale_ < static_cast<float>(bin);
     }
 
 private:
@@ -112,7 +112,7 @@ Halves binned_halves(const Part &part) {
     }
     const Items first = part.items.first(count);
     const Items second = part.items.subspan(count);
-    return {{first, centres_of(first), cut.first_surface}, {second, centres_of(second), cut.second_surface}};
+    return {{first, centers_of(first), cut.first_surface}, {second, centers_of(second), cut.second_surface}};
 }
 
 // Sorts by counting, because branches would be mispredicted.
@@ -127,7 +127,7 @@ Halves swept_halves(const Part &part) {
         std::array<std::uint32_t, most_swept> places{};
         for (std::size_t i = 0; i < count; ++i)
             for (std::size_t other = 0; other < i; ++other) {
-                const bool is_before = part.items[other].centre_radius[axis] <= part.items[i].centre_radius[axis];
+                const bool is_before = part.items[other].center_radius[axis] <= part.items[i].center_radius[axis];
                 places[i] += is_before ? 1 : 0;
                 places[other] += is_before ? 0 : 1;
             }
@@ -145,7 +145,7 @@ Halves swept_halves(const Part &part) {
             before.add_ball(items[i - 1]);
             const float first = before.surface();
             const float cost = first * nodes_for(i) + surfaces_from[i] * nodes_for(count - i);
-            if (cost < best_cost && items[i - 1].centre_radius[axis] < items[i].centre_radius[axis]) {
+            if (cost < best_cost && items[i - 1].center_radius[axis] < items[i].center_radius[axis]) {
                 best_items = items;
                 best_count = i;
                 best_cost = cost;
@@ -157,7 +157,7 @@ Halves swept_halves(const Part &part) {
     std::copy_n(best_items.begin(), count, part.items.begin());
     const Items first = part.items.first(best_count);
     const Items second = part.items.subspan(best_count);
-    return {{first, centres_of(first), first_surface}, {second, centres_of(second), second_surface}};
+    return {{first, centers_of(first), first_surface}, {second, centers_of(second), second_surface}};
 }
 
 } // namespace pt

@@ -26,14 +26,14 @@ struct Box {
 
     void add(const Box &other) { add(other.low, other.high); }
 
-    void add_centre(const TreeItem &item) {
-        const auto centre = std::bit_cast<Vector>(item.centre_radius);
-        add(centre, centre);
+    void add_center(const TreeItem &item) {
+        const auto center = std::bit_cast<Vector>(item.center_radius);
+        add(center, center);
     }
 
     void add_ball(const TreeItem &item) {
-        const auto centre = std::bit_cast<Vector>(item.centre_radius);
-        add(centre - centre[3], centre + centre[3]);
+        const auto center = std::bit_cast<Vector>(item.center_radius);
+        add(center - center[3], center + center[3]);
     }
 
     float extent(std::size_t axis) const { return high[axis] - low[axis]; }
@@ -75,12 +75,12 @@ void for_each_or_sample(Items items, Use use) {
 }
 
 // Returns the box of all centers. Large groups have the box of a sample, unless all centers of the sample are equal.
-inline Box centres_of(Items items) {
+inline Box centers_of(Items items) {
     Box box;
-    for_each_or_sample(items, [&](const TreeItem &item) { box.add_centre(item); });
+    for_each_or_sample(items, [&](const TreeItem &item) { box.add_center(item); });
     if (box.is_point())
         for (const TreeItem &item : items)
-            box.add_centre(item);
+            box.add_center(item);
     return box;
 }
 
@@ -93,7 +93,7 @@ inline Box balls_of(Items items) {
 // A group of spheres to be split. Large groups have the boxes of a sample.
 struct Part {
     Items items;
-    Box centres; // a single point only if all centers are equal
+    Box centers; // a single point only if all centers are equal
     float surface = 0.0F;
     bool has_no_twins = false;
 };

@@ -16,12 +16,12 @@ namespace {
 constexpr std::uint32_t free_depth = 14;
 
 Part part_of(Items items) {
-    return {items, centres_of(items), balls_of(items).surface()};
+    return {items, centers_of(items), balls_of(items).surface()};
 }
 
 Halves halved(const Part &part) {
-    const std::size_t axis = part.centres.longest_axis();
-    const auto order = [axis](const TreeItem &item) { return std::tuple(item.centre_radius[axis], item.sphere); };
+    const std::size_t axis = part.centers.longest_axis();
+    const auto order = [axis](const TreeItem &item) { return std::tuple(item.center_radius[axis], item.sphere); };
     const std::size_t half = part.items.size() / 2;
     std::ranges::nth_element(part.items, part.items.begin() + static_cast<std::ptrdiff_t>(half), {}, order);
     Halves halves{part_of(part.items.first(half)), part_of(part.items.subspan(half))};
@@ -30,7 +30,7 @@ Halves halved(const Part &part) {
 }
 
 Halves divided(const Part &part, std::uint32_t depth) {
-    if (depth >= free_depth || part.centres.is_point())
+    if (depth >= free_depth || part.centers.is_point())
         return halved(part);
     return part.items.size() <= most_swept ? swept_halves(part) : binned_halves(part);
 }
@@ -43,7 +43,7 @@ struct Making {
 bool have_equals(Items items) {
     for (std::size_t i = 0; i < items.size(); ++i)
         for (std::size_t other = 0; other < i; ++other)
-            if (items[i].centre_radius == items[other].centre_radius)
+            if (items[i].center_radius == items[other].center_radius)
                 return true;
     return false;
 }
@@ -117,7 +117,7 @@ Part *next_of(std::span<Part> parts, std::uint32_t depth) {
 // into equal halves can separate twins, so twins are removed first.
 Children children_of(Part node, const Making &making, std::uint32_t depth) {
     Children children;
-    if (node.items.size() <= tree_width || node.centres.is_point() || depth == free_depth)
+    if (node.items.size() <= tree_width || node.centers.is_point() || depth == free_depth)
         node = without_twins(node, making);
     if (node.items.size() <= tree_width) {
         for (std::size_t i = 0; i < node.items.size(); ++i)
@@ -132,7 +132,7 @@ Children children_of(Part node, const Making &making, std::uint32_t depth) {
         auto [first, second] = divided(*next, depth);
         making.progress.add(0.0, next->items.size());
         for (Part *const part : {&first, &second})
-            if (part->items.size() > 1 && part->centres.is_point() && depth < free_depth)
+            if (part->items.size() > 1 && part->centers.is_point() && depth < free_depth)
                 *part = without_twins(*part, making);
         *next = first;
         children.add(second);

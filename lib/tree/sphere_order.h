@@ -14,7 +14,7 @@ namespace pt {
 
 // The bounding ball of a sphere and its whole motion, in any unit.
 struct TreeItem {
-    std::array<float, 4> centre_radius;
+    std::array<float, 4> center_radius;
     std::uint32_t sphere;
 };
 

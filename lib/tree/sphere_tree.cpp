@@ -361,8 +361,8 @@ bool SphereTree::finds_close_lamps(WorkProgress &progress) const {
             return other != place && nearly_coincide(ball, surface_of(other));
         };
         // A sphere that nearly coincides with the lamp contains the lamp's center.
-        const glm::ivec3 centre(words_[first_sphere_ + place]);
-        if (any_in({centre, centre}, is_close))
+        const glm::ivec3 center(words_[first_sphere_ + place]);
+        if (any_in({center, center}, is_close))
             return true;
     }
     return false;

@@ -27,12 +27,12 @@ SphereWords::SphereWords(const Sphere &sphere, const Grid &grid) :
     way(std::bit_cast<glm::uvec4>(way_word(sphere.ball()))) {}
 
 MovingBall SphereWords::surface(const Grid &grid) const {
-    return surface_of(grid.point(centre()), radius(), std::bit_cast<glm::vec4>(way));
+    return surface_of(grid.point(center()), radius(), std::bit_cast<glm::vec4>(way));
 }
 
 GridBox SphereWords::box(const Grid &grid) const {
     const int reach = ceiling(radius() * grid.steps_per_unit);
-    GridBox box{centre() - reach, centre() + reach};
+    GridBox box{center() - reach, center() + reach};
     if (way != glm::uvec4(0)) {
         const glm::dvec3 steps = glm::dvec3(std::bit_cast<glm::vec4>(way)) / grid.step;
         box.low += glm::ivec3(glm::floor(glm::min(steps, 0.0)));
@@ -43,7 +43,7 @@ GridBox SphereWords::box(const Grid &grid) const {
 
 std::array<float, 4> SphereWords::ball(const Grid &grid) const {
     const glm::dvec3 half_way = 0.5 * glm::dvec3(std::bit_cast<glm::vec4>(way));
-    const glm::vec3 middle(glm::dvec3(centre()) + half_way * grid.steps_per_unit);
+    const glm::vec3 middle(glm::dvec3(center()) + half_way * grid.steps_per_unit);
     const double reach = radius() + glm::length(half_way);
     return {middle.x, middle.y, middle.z, static_cast<float>(reach * grid.steps_per_unit)};
 }

@@ -31,7 +31,7 @@ struct SphereWords {
     std::array<float, 4> ball(const Grid &grid) const;
 
 private:
-    glm::ivec3 centre() const { return glm::ivec3(place); }
+    glm::ivec3 center() const { return glm::ivec3(place); }
     double radius() const { return std::bit_cast<float>(place.w); }
 };
 

@@ -73,10 +73,10 @@ Node node_of(std::span<const ScaledLamp> lamps) {
     double radius = 0.0;
     std::array<double, 2> spreads{};
     for (const ScaledLamp &lamp : lamps) {
-        const std::array centres = lamp.ball.ends();
+        const std::array centers = lamp.ball.ends();
         const double lamp_radius = lamp.ball.radius;
         for (std::size_t end = 0; end < 2; ++end) {
-            const double distance = glm::length(centres[end] - middles[end]);
+            const double distance = glm::length(centers[end] - middles[end]);
             radius = std::max(radius, distance + lamp_radius);
             spreads[end] += lamp.power * (distance * distance + 3.0 * lamp_radius * lamp_radius);
         }

@@ -34,8 +34,8 @@ namespace {
 bool is_in_region(const std::vector<CurvedPlane> &planes, const SeenSphere &sphere) {
     const std::array way = {sphere.open, sphere.close()};
     return std::ranges::all_of(planes, [&](const CurvedPlane &plane) {
-        return plane.offset > 0.0 && std::ranges::all_of(way, [&](const glm::dvec3 &centre) {
-                   return glm::dot(plane.normal, centre) + plane.offset > sphere.radius;
+        return plane.offset > 0.0 && std::ranges::all_of(way, [&](const glm::dvec3 &center) {
+                   return glm::dot(plane.normal, center) + plane.offset > sphere.radius;
                });
     });
 }

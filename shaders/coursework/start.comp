@@ -96,7 +96,7 @@ Hit nearest(Ray ray)
 {
     Hit hit = Hit(FAR, vec3(0.0), vec3(0.0), 0u);
     [[unroll]] for (uint i = 0u; i < SPHERE_COUNT; ++i) {
-        vec4 sphere = ball_at(i, 0.0).centre_radius;
+        vec4 sphere = ball_at(i, 0.0).center_radius;
         float distance = distance_to_sphere(ray, sphere);
         if (distance < hit.distance) {
             vec3 position = ray.origin + distance * ray.direction;

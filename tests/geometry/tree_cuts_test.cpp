@@ -22,7 +22,7 @@ using Items = std::vector<pt::TreeItem>;
 constexpr double surface_error = 15 * 0x1p-21;
 
 pt::Part part_of(Items &items) {
-    return {items, pt::centres_of(items), 0.0F};
+    return {items, pt::centers_of(items), 0.0F};
 }
 
 Items items_of(std::uint32_t count, const std::function<std::array<float, 4>(std::uint32_t)> &ball) {
@@ -38,8 +38,8 @@ double surface_of(std::span<const pt::TreeItem> items) {
         double low = std::numeric_limits<double>::infinity();
         double high = -low;
         for (const pt::TreeItem &item : items) {
-            low = std::min(low, double{item.centre_radius[axis]} - item.centre_radius[3]);
-            high = std::max(high, double{item.centre_radius[axis]} + item.centre_radius[3]);
+            low = std::min(low, double{item.center_radius[axis]} - item.center_radius[3]);
+            high = std::max(high, double{item.center_radius[axis]} + item.center_radius[3]);
         }
         sides[axis] = high - low;
     }
@@ -54,7 +54,7 @@ double cost_of(std::span<const pt::TreeItem> first, std::span<const pt::TreeItem
 double least_cost(Items items, std::size_t first_axis = 0, std::size_t last_axis = 2) {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t axis = first_axis; axis <= last_axis; ++axis) {
-        const auto coordinate = [axis](const pt::TreeItem &item) { return item.centre_radius[axis]; };
+        const auto coordinate = [axis](const pt::TreeItem &item) { return item.center_radius[axis]; };
         std::ranges::sort(items, {}, coordinate);
         for (std::size_t count = 1; count < items.size(); ++count)
             if (coordinate(items[count - 1]) < coordinate(items[count]))
@@ -67,9 +67,9 @@ void expect_boxes(const pt::Part &part) {
     EXPECT_NEAR(part.surface, surface_of(part.items), surface_error);
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto [low, high] =
-            std::ranges::minmax(part.items, {}, [axis](const pt::TreeItem &item) { return item.centre_radius[axis]; });
-        EXPECT_EQ(part.centres.low[axis], low.centre_radius[axis]);
-        EXPECT_EQ(part.centres.high[axis], high.centre_radius[axis]);
+            std::ranges::minmax(part.items, {}, [axis](const pt::TreeItem &item) { return item.center_radius[axis]; });
+        EXPECT_EQ(part.centers.low[axis], low.center_radius[axis]);
+        EXPECT_EQ(part.centers.high[axis], high.center_radius[axis]);
     }
 }
 
@@ -87,7 +87,7 @@ TEST(TreeCuts, OfFewSpheresAreTheBest) {
         });
         Items items = before;
         const pt::Part part = part_of(items);
-        if (part.centres.is_point())
+        if (part.centers.is_point())
             continue;
         const pt::Halves halves = pt::swept_halves(part);
         expect_boxes(halves.first);
@@ -97,9 +97,9 @@ TEST(TreeCuts, OfFewSpheresAreTheBest) {
         const double least = least_cost(before);
         EXPECT_NEAR(cost_of(halves.first.items, halves.second.items), least, most_error) << round;
         const bool is_between = std::ranges::any_of(std::array{0U, 1U, 2U}, [&](unsigned axis) {
-            return halves.first.centres.high[axis] < halves.second.centres.low[axis];
+            return halves.first.centers.high[axis] < halves.second.centers.low[axis];
         });
-        EXPECT_TRUE(is_between) << "equal centres in both";
+        EXPECT_TRUE(is_between) << "equal centers in both";
     }
 }
 
@@ -119,7 +119,7 @@ TEST(TreeCuts, OfManySpheresAreAboutTheBest) {
             const pt::Halves halves = pt::binned_halves(part_of(items));
             expect_boxes(halves.first);
             expect_boxes(halves.second);
-            EXPECT_LT(halves.first.centres.high[longest], halves.second.centres.low[longest]);
+            EXPECT_LT(halves.first.centers.high[longest], halves.second.centers.low[longest]);
             EXPECT_LT(cost_of(halves.first.items, halves.second.items), 1.1 * least_cost(before, longest, longest));
         }
 }
