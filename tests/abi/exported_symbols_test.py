@@ -1,5 +1,5 @@
-"""Checks libpt's exported symbols and soname: exported_symbols_test.py LIBRARY ARCHIVE HEADERS LIST C_COMPILER. HEADERS
-is a folder."""
+"""Checks libpt's exported functions, the types in its headers, and its soname: exported_symbols_test.py LIBRARY ARCHIVE
+HEADERS LIST C_COMPILER. HEADERS is a folder."""
 
 import pathlib
 import re
@@ -21,8 +21,8 @@ def symbols_of(path, *options):
 
 
 def declared_in(headers):
-    return {name for header in headers
-            for name in re.findall(r"^PT_API\b[^;(]*?\b(pt_\w+)\(", header.read_text(), re.MULTILINE)}
+    return {" ".join(declaration.split()) for header in headers
+            for declaration in re.findall(r"^(?:PT_API|typedef(?! struct)) ([^;]*);", header.read_text(), re.MULTILINE)}
 
 
 def soname_of(library):
@@ -34,8 +34,9 @@ def differences(what, found, listed):
 
 
 def complaints(library, archive, headers, listed, soname=SONAME):
-    found = differences("shared library", symbols_of(library, "--dynamic"), listed)
-    found += differences("static library", symbols_of(archive, "--extern-only"), listed)
+    names = set(re.findall(r"(pt_\w+)\(", "\n".join(listed)))
+    found = differences("shared library", symbols_of(library, "--dynamic"), names)
+    found += differences("static library", symbols_of(archive, "--extern-only"), names)
     found += differences("headers", declared_in(headers), listed)
     if soname_of(library) != soname:
         found.append(f"the soname is {soname_of(library)}, not {soname}")
@@ -44,30 +45,31 @@ def complaints(library, archive, headers, listed, soname=SONAME):
 
 def build(folder, compiler, source, soname):
     (folder / "f.c").write_text(source)
-    for old in folder.glob("*.h"):
-        old.unlink()
-    for function in re.findall(r"^int (\w+)", source, re.MULTILINE):
-        (folder / f"{function}.h").write_text(f"PT_API int {function}(void);\n")
+    (folder / "f.h").write_text(re.sub(r"^(.*) \{.*", r"PT_API \1;", source, flags=re.MULTILINE))
     output(compiler, "-fPIC", "-c", folder / "f.c", "-o", folder / "f.o")
     output(compiler, "-shared", f"-Wl,-soname,{soname}", folder / "f.o", "-o", folder / "f.so")
     (folder / "f.a").unlink(missing_ok=True)
     output("ar", "rc", folder / "f.a", folder / "f.o")
-    return folder / "f.so", folder / "f.a", list(folder.glob("*.h"))
+    return folder / "f.so", folder / "f.a", [folder / "f.h"]
 
 
 def check_the_check(compiler):
-    """Negative control: symbols are added, missing or renamed."""
-    one, two = "int pt_one(void) { return 1; }\n", "int pt_two(void) { return 2; }\n"
-    everywhere = ("headers", "shared library", "static library")
+    """Negative control: functions are added, missing or of another type, and the soname is another one."""
+    one, two, new = (f"int pt_{name}(void) {{ return 1; }}\n" for name in ("one", "two", "new"))
+    libraries = ("shared library", "static library")
     with tempfile.TemporaryDirectory() as name:
         for source, soname, wanted in (
             (one + two, SONAME, []),
-            (one, SONAME, [f"{place}: pt_two is missing" for place in everywhere]),
-            (one + two + "int pt_new(void) { return 3; }\n", SONAME,
-             [f"{place}: pt_new is not in the list" for place in everywhere]),
+            (one, SONAME, ["headers: int pt_two(void) is missing",
+                           *(f"{each}: pt_two is missing" for each in libraries)]),
+            (one + two + new, SONAME, ["headers: int pt_new(void) is not in the list",
+                                       *(f"{each}: pt_new is not in the list" for each in libraries)]),
+            (one + two.replace("void", "int x"), SONAME, ["headers: int pt_two(int x) is not in the list",
+                                                          "headers: int pt_two(void) is missing"]),
             (one + two, "libpt.so.0.1", ["the soname is libpt.so.0.1, not libpt.so.0.4"]),
         ):
-            found = complaints(*build(pathlib.Path(name), compiler, source, soname), {"pt_one", "pt_two"})
+            listed = {"int pt_one(void)", "int pt_two(void)"}
+            found = complaints(*build(pathlib.Path(name), compiler, source, soname), listed)
             if sorted(found) != wanted:
                 sys.exit(f"the check found {found}, not {wanted}")
 
@@ -77,7 +79,7 @@ def main():
     check_the_check(compiler)
     is_scene = "pt-scene" in library
     headers = [path for path in pathlib.Path(folder).glob("*.h") if (path.name == SCENE_HEADER) == is_scene]
-    found = complaints(library, archive, headers, set(pathlib.Path(listed).read_text().split()),
+    found = complaints(library, archive, headers, set(pathlib.Path(listed).read_text().splitlines()),
                        SCENE_SONAME if is_scene else SONAME)
     if found:
         sys.exit("\n".join(found))

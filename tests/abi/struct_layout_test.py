@@ -1,6 +1,6 @@
-"""Checks sizes and offsets of structs: struct_layout_test.py HEADERS TABLE ROOT C_COMPILER. With only HEADERS and
-C_COMPILER it prints the table. Structs may only grow at the end. The output of ROOT/lib/python/generate.py must be
-current."""
+"""Checks sizes and offsets of structs, and numbers of enumerators: struct_layout_test.py HEADERS TABLE ROOT C_COMPILER.
+With only HEADERS and C_COMPILER it prints the table. Structs may only grow at the end, and numbers stay. The output of
+ROOT/lib/python/generate.py must be current."""
 
 import ctypes
 import importlib.util
@@ -42,6 +42,18 @@ def program_for(structs, includes):
     return "\n".join(lines + ["return 0; }"])
 
 
+def numbers_of(headers):
+    """Returns a line with the number of enumerators of each enumeration, then a line for each enumerator."""
+    left = [(name, number) for name, number, _ in generate.enumerators_of(headers.values())]
+    lines = []
+    for prefix, enumeration, *_ in generate.ENUMERATIONS:
+        members = [each for each in left if each[0].startswith(prefix)]
+        left = [each for each in left if each not in members]
+        lines += [f"{enumeration} {len(members)}",
+                  *(f"{enumeration}.{name.removeprefix(prefix)} {number}" for name, number in members)]
+    return lines
+
+
 def layout_of(headers, compiler):
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
@@ -50,7 +62,8 @@ def layout_of(headers, compiler):
             (folder / "pt" / header).write_text(text)
         (folder / "layout.c").write_text(program_for(structs_of(headers), headers))
         subprocess.run([compiler, "-std=c99", "-I", folder, folder / "layout.c", "-o", folder / "layout"], check=True)
-        return subprocess.run([folder / "layout"], check=True, capture_output=True, text=True).stdout.splitlines()
+        done = subprocess.run([folder / "layout"], check=True, capture_output=True, text=True)
+    return done.stdout.splitlines() + numbers_of(headers)
 
 
 def ctypes_structs(module):
@@ -69,7 +82,7 @@ def python_layout(structs):
 
 
 def packed(layout):
-    """Writes each struct on one line: its name and size, then the offset and size of each member."""
+    """Writes each struct or enumeration on one line: its name and size, then its members."""
     return re.sub(r"\n\w+\.", ", ", "\n".join(layout))
 
 
@@ -91,6 +104,7 @@ def check_the_check(headers, table, compiler):
         ("double shutter_open;", "double shutter;", "- pt_camera.shutter_open 88 8"),
         ("double rmse_low;", "", "- pt_error_estimate.rmse_low 16 8"),
         ("int64_t index;", "int32_t index;", "- pt_broken_rule.index 8 8"),
+        ("PT_PENDING = 3,", "PT_PENDING = 4,", "- Result.PENDING 3"),
     ):
         assert sum(text.count(old) for text in headers.values()) == 1, old
         changed = {name: text.replace(old, new) for name, text in headers.items()}

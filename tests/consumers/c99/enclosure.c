@@ -54,6 +54,8 @@ int main(int argument_count, char **arguments) {
 
     if (argument_count > 1)
         expected[0] = (float)atof(arguments[1]);
+    if (pt_version() != PT_VERSION)
+        return 2;
     if (result < 0) {
         fprintf(stderr, "%s: %s\n", pt_result_name(result), pt_last_error(NULL));
         return 2;
