@@ -1,6 +1,5 @@
-"""Compares estimators with uniform directions, which need no density of the material of shaders/MATERIALS.md."""
+"""The material of shaders/MATERIALS.md: its radiance, and estimators against uniform directions, which need no density."""
 
-import dataclasses
 import pathlib
 import shutil
 import subprocess
@@ -58,6 +57,17 @@ class Minnaert(unittest.TestCase):
                     difference, share = self.difference(scene, estimator, expected)
                     self.assertLessEqual(difference, 1)
                     self.assertLess(share, 0.05)
+
+    def test_a_floor_under_a_white_sky_has_the_radiance_of_the_page(self):
+        """With the albedo 1/2 it is 1/2 from above, and half of it at 60 degrees."""
+        floor = pt.Scene([pt.Sphere((0, 0, 0), 1000, pt.Material(emission=1))], [pt.Plane((0, 1, 0), 0, pt.Material(diffuse=0.5))])
+        for position, radiance in ((0, 1, 0), 0.5), ((0, 1, 3**0.5), 0.25):
+            camera = pt.Camera(position, (0, 0, 0), (1, 0, 0), vertical_extent=1)
+            for estimator, samples in (pt.Estimator.BEST, 1), (pt.Estimator.UNIFORM, 16384):
+                image = self.context.render(floor, camera, pt.RenderSettings(3, 2, max_path_length=2, estimator=estimator), samples)
+                rounding = 1e-6 * radiance
+                noise = STANDARD_ERRORS * image.standard_error if samples > 1 else 0
+                self.assertTrue((abs(image.radiance - radiance) <= rounding + noise).all(), image.radiance)
 
     def test_a_wrong_density_stands_out(self):
         path = self.folder / "phong.glsl"

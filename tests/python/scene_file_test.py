@@ -86,8 +86,10 @@ class Reading(unittest.TestCase):
             pt.load("s.json", text="{}", overrides=[pt.Override("render.spp=0", "--spp")])
         with self.assertRaisesRegex(pt.InvalidSceneError, "^s.json: has no animation"):
             pt.load("s.json", text="{}", frame=1)
-        with self.assertRaises(pt.FileError):
+        with self.assertRaisesRegex(pt.FileError, "cannot read .*absent.json: No such file or directory"):
             pt.load(self.folder / "absent.json")
+        with self.assertRaisesRegex(pt.FileError, r"spheres\[0\].center: cannot read "):
+            pt.load(self.written({**ALL_KINDS, "spheres": [{**COLUMNS[0], "center": "absent.npy"}]}))
 
     def test_errors_of_libpt_get_lines_and_overrides(self):
         text = '{"materials": {"a": {}},\n"spheres": [{"center": [0, 0, 0],\n"radius": -1, "material": "a"}]}'
@@ -105,6 +107,12 @@ class Reading(unittest.TestCase):
         loaded = pt.load("s.json", text=text, frame=1, overrides={"camera.shutter": [0, 0], "render.seed": 5})
         self.assertEqual(loaded.camera.position, (1.0, 1.0, 6.0))
         self.assertEqual(loaded.settings.seed, 6)
+        text = json.dumps({**ALL_KINDS, "animation": {"camera.position": [[0, [0, 1, 0]]]}})
+        with pt.Context() as context, self.assertRaises(pt.InvalidArgumentError) as refused:
+            context.set_camera(pt.load("s.json", text=text, frame=0).camera)
+        explained = pt.load("s.json", text=text, frame=0).explained(refused.exception)
+        self.assertIs(type(explained), pt.InvalidSceneError)
+        self.assertRegex(str(explained), "^s.json:1: camera.")
 
     def test_how_a_picture_is_shown(self):
         loaded = pt.load("s.json", text='{"film": {"exposure": -1.5, "tonemap": "agx", "gamma": 2}, "render": {"spp": 9}}')
