@@ -1,26 +1,10 @@
-#include "lib/scene_file/enumerations.h"
+#include "lib/scene_file/names.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
-#include <stdexcept>
 
 namespace {
-
-template <std::size_t Count>
-void expect_round_trip(const pt::ValueNames<Count> &methods, std::uint32_t last) {
-    EXPECT_EQ(methods.names().size(), last + 1U);
-    for (std::uint32_t value = 0; value <= last; ++value)
-        EXPECT_EQ(methods.find(methods.name(value)), value);
-    EXPECT_EQ(methods.find("bset"), std::nullopt);
-    EXPECT_THROW(methods.name(last + 1), std::out_of_range);
-}
-
-TEST(ValueNames, EveryMethodHasAName) {
-    expect_round_trip(pt::samplers, PT_SAMPLER_SOBOL);
-    expect_round_trip(pt::estimators, PT_ESTIMATOR_MIS);
-    EXPECT_EQ(pt::estimators.find("light"), static_cast<std::uint32_t>(PT_ESTIMATOR_LIGHT));
-}
 
 constexpr std::array<std::string_view, 4> known{"center", "radius", "material", "motion"};
 
