@@ -85,8 +85,10 @@ class KilledRender(KeptRender):
         self.assertEqual([self.contents(file) for file in ("a.png", "a.ptfilm")], expected)
 
     def test_a_target_error_is_reached_at_the_same_sample(self):
-        options = [*self.options(100000), "--error", "3%", "--sampling", "uniform"]
+        options = [*self.options(100000), "--error", "3%", "--sampling", "uniform", "--stats", "a.json"]
         expected = self.whole(*options)
+        stats = json.loads(self.read("a.json"))
+        self.assertEqual((stats["spp"], stats["target_reached"]), (stats["spp_max"], True))
         self.expect(0, *self.options(37), "--checkpoint", "c.ptfilm")
         self.expect(0, *options, "--checkpoint", "c.ptfilm", "--resume")
         self.assertEqual([self.contents(file) for file in ("a.png", "a.ptfilm")], expected)
@@ -99,7 +101,8 @@ class KilledRender(KeptRender):
             codes.append(self.run_pt(*options, "--checkpoint", "c.ptfilm", "--time", "0.05", "--resume"))
         self.assertEqual(codes[-1], 0, self.errors)
         self.assertGreater(len(codes), 2)
-        self.assertIn('"ended_by": "error"', self.read("a.json"))
+        stats = json.loads(self.read("a.json"))
+        self.assertEqual((stats["ended_by"], stats["spp"] < stats["spp_max"]), ("error", True))
         self.assertEqual([self.contents(file) for file in ("a.png", "a.ptfilm")], expected)
 
 

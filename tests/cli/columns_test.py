@@ -9,10 +9,11 @@ COLORS = [255, 0, 128, 0, 255, 64, 30, 60, 90]
 
 
 class ColumnsTest(CommandLineTest):
-    def scene(self, *spheres, **others):
-        materials = {"a": {"diffuse": 0.75}, "sky": {"emission": 1}}
-        sky = {"center": [0, 0, 0], "radius": 100, "material": "sky"}
-        self.write("s.json", json.dumps({"materials": materials, "spheres": [sky, *spheres], **others}, indent=1))
+    def scene(self, *items, kind="spheres"):
+        scene = {"materials": {"a": {"diffuse": 0.75}, "sky": {"emission": 1}},
+                 "spheres": [{"center": [0, 0, 0], "radius": 100, "material": "sky"}]}
+        scene[kind] = [*scene.get(kind, ()), *items]
+        self.write("s.json", json.dumps(scene, indent=1))
 
     def files_of(self):
         self.write("c.npy", npy("<f8", (3, 3), CENTERS))
@@ -77,73 +78,54 @@ class Refusals(ColumnsTest):
 class RealDevice(ColumnsTest):
     program = PT
 
-    def picture(self):
+    def picture(self, *items, kind="spheres"):
+        self.scene(*items, kind=kind)
         self.expect(0, "render", "s.json", "-o", "a.png", "--size", "24x16", "--spp", "4", "-q")
         return read_png(self.path("a.png"))[2]
 
-    def test_columns_are_the_spheres_that_they_list(self):
+    def test_columns_are_what_they_list(self):
         def linear(byte):
             share = byte / 255
             return share / 12.92 if share <= 0.04045 else ((share + 0.055) / 1.055) ** 2.4
 
-        motion = [0.25, 0, 0]
-        singles = [{"center": CENTERS[3 * i:3 * i + 3], "radius": RADII[i], "material": "a", "motion": motion,
-                    "color": [linear(byte) for byte in COLORS[3 * i:3 * i + 3]]} for i in range(3)]
-        self.scene(*singles)
-        expected = self.picture()
-        self.assertGreater(len({value for line in expected for value in line}), 30)
-        self.files_of()
-        for float_type, version in (("<f4", 1), ("<f8", 2)):
-            self.write("c.npy", npy(float_type, (3, 3), CENTERS, version))
-            self.write("r.npy", npy(float_type, (3,), RADII, version))
-            self.write("m.npy", npy(float_type, (3, 3), motion * 3, version))
-            for moved in "m.npy", motion:
-                self.scene({"center": "c.npy", "radius": "r.npy", "material": "a", "motion": moved, "color": "k.npy"})
-                # The library decodes sRGB to float32, which may change the light by one ulp.
-                for line, other in zip(expected, self.picture()):
-                    self.assertLessEqual(max(abs(a - b) for a, b in zip(line, other)), 1)
-
-    def test_columns_are_the_capsules_that_they_list(self):
-        ends = [0.5, 0.5, -4.0, 1.25, -0.5, -6.5, -1.0, 0.75, -4.0]
-        singles = [{"center": CENTERS[3 * i:3 * i + 3], "end": ends[3 * i:3 * i + 3], "radius": 0.5 * RADII[i],
-                    "material": "a", "color": [1, 0.5, 0.25]} for i in range(3)]
-        self.scene(capsules=singles)
-        expected = self.picture()
-        self.scene(*[{key: one[key] for key in one if key != "end"} for one in singles])
-        self.assertNotEqual(self.picture(), expected)
+        ends, opacities, motion = [0.5, 0.5, -4.0, 1.25, -0.5, -6.5, -1.0, 0.75, -4.0], [0.5, 1, 0.25], [0.25, 0, 0]
         self.files_of()
         self.write("e.npy", npy("<f4", (3, 3), ends))
-        self.write("r.npy", npy("<f8", (3,), [0.5 * radius for radius in RADII]))
-        columns = {"center": "c.npy", "end": "e.npy", "radius": "r.npy", "material": "a", "color": [1, 0.5, 0.25]}
-        self.scene(capsules=[columns])
-        self.assertEqual(self.picture(), expected)
-        self.write("e.npy", npy("<f4", (3, 3), [float("inf")] + ends[1:]))
-        self.expect(3, "render", "s.json", "-o", "a.png", error=": capsules[0].end[0] = (inf, 0.5, -4): must be finite")
-        self.scene(capsules=[{**singles[0], "material": "sky"}])
-        self.expect(3, "render", "s.json", "-o", "a.png",
-                    error=': capsules[0].material = "sky": must be a material without emission')
-        self.scene(capsules=[{**columns, "end": [1, 1, -5], "material": "sky"}])
-        self.expect(3, "render", "s.json", "-o", "a.png", error=': capsules[0].material = "sky": must be a material')
-        del singles[1]["end"]
-        self.scene(capsules=singles)
-        self.expect(3, "render", "s.json", "-o", "a.png", error='capsules[1]: "end" is missing')
-
-    def test_columns_are_the_opacities_that_they_list(self):
-        opacities = [0.5, 1, 0.25]
-        self.scene(*[{"center": CENTERS[3 * i:3 * i + 3], "radius": RADII[i], "material": "a", "opacity": opacities[i]}
-                     for i in range(3)])
-        expected = self.picture()
-        self.files_of()
+        self.write("m.npy", npy("<f4", (3, 3), motion * 3))
         self.write("o.npy", npy("<f8", (3,), opacities))
-        columns = {"center": "c.npy", "radius": "r.npy", "material": "a"}
-        self.scene({**columns, "opacity": "o.npy"})
-        self.assertEqual(self.picture(), expected)
-        self.scene(columns)
-        self.assertNotEqual(self.picture(), expected)
-        self.scene({**columns, "opacity": 0.5, "material": "sky"})
-        self.expect(3, "render", "s.json", "-o", "a.png", error='spheres[1].material = "sky": must be a material that neither')
-        self.scene({**columns, "opacity": 1.5})
-        self.expect(3, "render", "s.json", "-o", "a.png", error="spheres[1].opacity[0] = 1.5: must lie in [0, 1]")
+        for kind, key, values, columns, step in (
+                ("spheres", "color", [[linear(byte) for byte in COLORS[3 * i:3 * i + 3]] for i in range(3)], ("k.npy",), 1),
+                ("spheres", "motion", [motion] * 3, ("m.npy", motion), 0), ("spheres", "opacity", opacities, ("o.npy",), 0),
+                ("capsules", "end", [ends[:3], ends[3:6], ends[6:]], ("e.npy",), 0)):
+            plain = [{"center": CENTERS[3 * i:3 * i + 3], "radius": RADII[i], "material": "a"} for i in range(3)]
+            expected = self.picture(*({**one, key: value} for one, value in zip(plain, values)), kind=kind)
+            self.assertNotEqual(self.picture(*plain), expected)
+            for column in columns:
+                for float_type, version in (("<f4", 1), ("<f8", 2)):
+                    with self.subTest(key=key, column=column, type=float_type):
+                        self.write("c.npy", npy(float_type, (3, 3), CENTERS, version))
+                        self.write("r.npy", npy(float_type, (3,), RADII, version))
+                        found = self.picture({"center": "c.npy", "radius": "r.npy", "material": "a", key: column}, kind=kind)
+                        # The library decodes sRGB to float32, which may change the light by one ulp.
+                        self.assertLessEqual(max(abs(a - b) for rows in zip(expected, found) for a, b in zip(*rows)), step)
+
+    def test_what_does_not_fit_is_refused(self):
+        self.files_of()
+        self.write("e.npy", npy("<f4", (3, 3), [float("inf")] * 9))
+        single = {"center": [0, 0, -5], "radius": 1, "material": "a"}
+        columns = {**single, "center": "c.npy"}
+        for kind, item, error in (
+                ("capsules", {**columns, "end": "e.npy"}, ": capsules[0].end[0] = (inf, inf, inf): must be finite"),
+                ("capsules", {**single, "end": [1, 0, -5], "material": "sky"},
+                 ': capsules[0].material = "sky": must be a material without emission'),
+                ("capsules", {**columns, "end": [1, 1, -5], "material": "sky"}, ': capsules[0].material = "sky": must be a material'),
+                ("capsules", single, 'capsules[0]: "end" is missing'),
+                ("spheres", {**columns, "opacity": 0.5, "material": "sky"},
+                 'spheres[1].material = "sky": must be a material that neither'),
+                ("spheres", {**columns, "opacity": 1.5}, "spheres[1].opacity[0] = 1.5: must lie in [0, 1]")):
+            with self.subTest(error=error):
+                self.scene(item, kind=kind)
+                self.expect(3, "render", "s.json", "-o", "a.png", error=error)
 
     def test_rules_of_the_library_lead_back_to_the_file(self):
         self.files_of()

@@ -156,25 +156,6 @@ class RealDevice(CommandLineTest):
             for left_out in EITHER.get(section, ([],)):
                 self.render_scene(0, section, {key: value for key, value in examples.items() if key not in left_out})
 
-    def test_ranges_of_keys(self):
-        found = 0
-        for section in SECTIONS:
-            rows = {names_in(row[0])[0]: row[2] for row in section_rows(section)}
-            limits = {key: (0.0, 1e18) if "color" in text else range_of(text) for key, text in rows.items()}
-            limits = {key: ends for key, ends in limits.items() if ends}
-            found += len(limits)
-
-            def of_form(key, number, rows=rows):
-                return [number] * 3 if rows[key].startswith("each") else number
-
-            for end in 0, 1:
-                self.render_scene(0, section, {key: of_form(key, ends[end]) for key, ends in limits.items()})
-            for key, ends in limits.items():
-                for number in beyond(*ends):
-                    self.render_scene(3, section, {key: of_form(key, number)})
-                    self.assertIn(key, self.errors)
-        self.assertEqual(found, 10)
-
     def test_ranges_of_options(self):
         rows = {row[0].strip("`"): row[2] for row in rows_after("\n## `pt render`\n")}
         ranges = {option: ends for option, ends in ((option, range_of(text)) for option, text in rows.items()) if ends}

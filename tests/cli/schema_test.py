@@ -6,7 +6,7 @@ import os
 import jsonschema
 import pt
 from command_line import SCENES, CommandLineTest, npy
-from manual_test import SECTIONS, section_rows
+from manual_test import SECTIONS, beyond, names_in, range_of, scene_with, section_rows
 from scene_file import read_scene
 
 SCENE = {
@@ -105,6 +105,23 @@ class Schema(CommandLineTest):
         except (pt.Error, ValueError) as error:
             return refused, str(error)
         return None, ""
+
+    def test_ranges_are_those_of_the_manual(self):
+        found = 0
+        for section in SECTIONS:
+            rows = {names_in(row[0])[0]: row[2] for row in section_rows(section)}
+            limits = {key: (0.0, 1e18) if "color" in text else range_of(text) for key, text in rows.items()}
+            limits = {key: ends for key, ends in limits.items() if ends}
+            found += len(limits)
+            for key, ends in limits.items():
+                for numbers, is_valid in (ends, True), (beyond(*ends), False):
+                    for number in numbers:
+                        value = [number] * 3 if rows[key].startswith("each") else number
+                        scene = json.loads(scene_with(section, {key: value}))
+                        refused, message = self.refusal(scene, False)
+                        self.assertEqual((self.validator.is_valid(scene), refused is None), (is_valid, is_valid), scene)
+                        self.assertIn("" if is_valid else key, message)
+        self.assertEqual(found, 10)
 
     def test_it_refuses_what_the_program_refuses_of_columns(self):
         for name, shape in ("a.npy", (1, 3)), ("r.npy", (1,)):

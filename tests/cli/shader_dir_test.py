@@ -1,5 +1,4 @@
 import glob
-import json
 import os
 import shutil
 import subprocess
@@ -119,35 +118,6 @@ class ShaderDir(WatchTest):
         self.expect(0, "render", "s.json", "-o", "a.png")
         self.expect_picture(0.25)
         self.expect(3, "render", "s.json", "-o", "a.png", "--shader-dir", "none", error="none/pathtrace.comp")
-
-
-class MaterialsPage(CommandLineTest):
-    program = PT
-
-    def values(self, *arguments):
-        self.expect(0, "render", "s.json", "-o", "a.png", "--shader-dir", "shaders", *arguments)
-        return read_png(self.path("a.png"))[2]
-
-    def test_minnaert(self):
-        page = self.read(os.path.join(SHADERS, "MATERIALS.md"))
-        self.write("minnaert.diff", page.split("```diff\n")[1].split("```")[0])
-        shutil.copytree(SHADERS, self.path("shaders"))
-        subprocess.run(["patch", "-p2", "-d", "shaders", "-i", "../minnaert.diff"], cwd=self.folder, check=True,
-                       stdout=subprocess.DEVNULL)
-        for position, radiance in ([0, 1, 0], 0.5), ([0, 1, 3**0.5], 0.25):
-            self.write("s.json", json.dumps(
-                {"camera": {"projection": "orthographic", "position": position, "look_at": [0, 0, 0], "up": [1, 0, 0],
-                            "vertical_extent": 1},
-                 "film": {"width": 3, "height": 2, "exposure": 0}, "render": {"max_path_length": 2},
-                 "materials": {"floor": {"diffuse": 0.5}, "sky": {"emission": 1}},
-                 "spheres": [{"center": [0, 0, 0], "radius": 1000, "material": "sky"}],
-                 "planes": [{"normal": [0, 1, 0], "offset": 0, "material": "floor"}]}))
-            self.assertEqual(self.values("--spp", "1"), [[SRGB[radiance]] * 9] * 2)
-            # A sample's standard error is 0.9 of the value, and 1% of the value is 0.8 steps of 1/255. The tolerance of 2 steps is more
-            # than 4 standard errors of the mean.
-            for row in self.values("--spp", "65536", "--estimator", "uniform"):
-                for value in row:
-                    self.assertLessEqual(abs(value - SRGB[radiance]), 2)
 
 
 class Module(CommandLineTest):
