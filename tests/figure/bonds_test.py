@@ -122,7 +122,7 @@ class Residues(unittest.TestCase):
         notes = []
         stretched.bonds = Bonds.of([[0, 1], [0, 2]], is_complete=False)
         self.assertEqual(self.pairs(stretched, notes), [[0, 1], [0, 2], [2, 3]])
-        self.assertEqual(notes, ["bonds are 2 of the data, and 1 by distance"])
+        self.assertEqual(notes, ["bonds: 2 of the data, and 1 by distance"])
         self.assertEqual(self.pairs(stretched.select(np.array([True, False, True, True]))), [[0, 1], [1, 2]])
 
 

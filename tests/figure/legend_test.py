@@ -40,7 +40,7 @@ class Files(unittest.TestCase):
             self.assertEqual(saved(legend, "pdf")[:5], b"%PDF-")
         with matplotlib.rc_context({"svg.fonttype": "none"}):
             self.assertIn("a<b>&c", "".join(xml.etree.ElementTree.fromstring(saved(NAMES)).itertext()))
-        with self.assertRaisesRegex(ValueError, "legend: there is nothing to tell"):
+        with self.assertRaisesRegex(ValueError, "legend: is empty"):
             saved(None)
 
 

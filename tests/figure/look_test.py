@@ -169,7 +169,7 @@ class Radii(unittest.TestCase):
                               types=np.array(["A", "B", "A"]))
         for words, radius in (("data.csv: particle 2: radius = 0.0: must be > 0", "r"), ("has no elements", "covalent"),
                               ("radius has shape .3,. of <U1", "w"), ("no column 'q'", "q"), ("no column 'q'", "2*q"),
-                              ("the type B is none of those with a radius, A", "A=1"), ("like O=0.7,H=0.3", "A=x"),
+                              ("the type B has no radius, unlike A", "A=1"), ("like O=0.7,H=0.3", "A=x"),
                               ("radius = -1", -1)):
             with self.subTest(words=words), self.assertRaisesRegex(ValueError, words):
                 prepare(particles, Options(radius=radius))

@@ -222,7 +222,7 @@ class Users(unittest.TestCase):
 
     def test_what_is_said_of_them(self):
         for name, message in (("comment.dump", ":11: '##### note': has 2 values, must have 5"),
-                              ("local.dump", ":3: 'ITEM: NUMBER OF ENTRIES': is none of a dump of atoms"),
+                              ("local.dump", ":3: 'ITEM: NUMBER OF ENTRIES': is not part of a dump of atoms"),
                               ("nan_pos.csv", ": particle 3 of 3: x = nan, y = nan, z = nan: must be finite"),
                               ("rnan.csv", ": particle 2 of 3: radius = nan: must be finite"),
                               ("inf.ply", ": particle 1 of 4: x = -inf, y = -inf, z = inf: must be finite")):

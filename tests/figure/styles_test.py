@@ -81,7 +81,7 @@ class Crystals(unittest.TestCase):
         np.testing.assert_allclose(drawn.cell.vectors, np.diag([11.28, 5.64, 16.92]))
         apart = np.linalg.norm(drawn.centers[:, None] - drawn.centers, axis=2)
         self.assertAlmostEqual(float(apart[apart > 0].min()), 2.82)
-        with self.assertRaisesRegex(ValueError, "repeat: color, radius, .* must be no arrays"):
+        with self.assertRaisesRegex(ValueError, "repeat: color, radius, .* must not be arrays"):
             prepare(salt(), Options(repeat=(2, 1, 1), radius=np.ones(8)))
 
 

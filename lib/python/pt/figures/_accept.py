@@ -27,15 +27,15 @@ def load(data: Any, *, frame: int | None = None, model_number: int | None = None
     data            name of a file, "-" for standard input; an array of shape (n, 3), (n, 2) or, with frames, (t, n, 3);
                     a dict of columns; a pandas or polars frame; ASE's Atoms or a list of them; an MDAnalysis universe or
                     group of atoms; an OVITO data collection; or Particles
-    frame           index among frames with particles; negative numbers count from the end. None: the last frame, with
-                    MDAnalysis the current frame, with several models the first
+    frame           index among frames with particles; negative numbers count from the end. None: the last frame, but
+                    MDAnalysis' current frame, and the first of several models
     model_number    number of a model in a PDB or mmCIF file
     columns         names of columns, such as {"x": "lon", "y": "lat"} or "x=lon,y=lat", for
                     x, y, z, radius, diameter, element, type, red, green, blue
     format          format of a file, instead of the detected one
     topology        file with the atoms of a trajectory (XTC, TRR, DCD, ...)
     atom_style      of a LAMMPS data file, if it is neither stated nor clear from the columns
-    drop_nonfinite  whether to leave out particles whose position or radius is not finite; otherwise they are refused
+    drop_nonfinite  leaves out particles whose position or radius is not finite, which are refused otherwise
     """
     if isinstance(data, Particles):
         return data
@@ -47,7 +47,7 @@ def load(data: Any, *, frame: int | None = None, model_number: int | None = None
     elif frame is None and source.current is not None:
         frame = source.current
         if source.models is not None and source.count() > 1:
-            notes.append(f"model {source.models[frame]} is shown of {source.count():,}: model_number takes another")
+            notes.append(f"model {source.models[frame]} is shown of {source.count():,}: model_number chooses another")
     table = source.read(_index(source, -1 if frame is None else frame))
     table.notes += notes
     return assembled(source.name, table, mapping, drop_nonfinite)

@@ -74,7 +74,7 @@ def _positions(name: str, parts: dict[str, Array], table: Array | None, chosen: 
             positions[:, i] = parts[axis]
     if scaled:
         if cell is None:
-            raise DataError(f"{name}: {', '.join(axes)} are fractions of a cell, and there is none")
+            raise DataError(f"{name}: {', '.join(axes)} are fractions of a cell, but the data have none")
         positions = positions @ cell.vectors + cell.origin
     positions = _flushed(positions)
     for i, axis in enumerate("xyz"):
@@ -113,7 +113,7 @@ def _finite(particles: Particles, drop: bool) -> Particles:
         return particles
     count = int(len(good) - good.sum())
     if drop and count < len(good):
-        particles.notes.append(f"{count:,} of {len(good):,} particles are left out: not finite")
+        particles.notes.append(f"{count:,} of {len(good):,} particles are left out: they are not finite")
         particles = particles.select(good)
         _note_coinciding(particles)
         return particles
@@ -127,7 +127,7 @@ def _finite(particles: Particles, drop: bool) -> Particles:
 
 
 def _note_coinciding(particles: Particles) -> None:
-    """Compares one projection of each position. If there are many particles, compares only those whose hash begins with zeros."""
+    """Compares projections of the positions. If there are many, compares a sample, chosen by hash."""
     count, bits = len(particles), (len(particles) // MOST_SORTED).bit_length()
     if count > MOST_COMPARED:
         return
@@ -183,7 +183,7 @@ def _with_extent(particles: Particles) -> Particles:
 
 
 def _put_labels(particles: Particles, chosen: dict[str, str]) -> None:
-    """Sets elements or types. A column `type` has elements if most of its words are known symbols."""
+    """A column `type` has elements if most of its words are symbols."""
     columns = particles.columns
     element, kind = (chosen.get(role) or first_of(columns, names) for role, names in
                      (("element", ELEMENTS), ("type", TYPES)))
@@ -204,7 +204,7 @@ def _are_numbers(labels: Array) -> bool:
 
 
 def _colors(columns: Mapping[str, Array], chosen: dict[str, str], is_text: bool, notes: list[str]) -> Array | None:
-    """For floats and unsigned integers, the type decides the scale of colors. For other integers and for text, the largest number does."""
+    """Floats and unsigned integers are scaled by their type. Other integers and text are scaled by their largest number."""
     choices = (tuple(chosen.get(key, key) for key in _COLORS[0]), *_COLORS)
     found = next((names for names in ([first_of(columns, (name,)) for name in choice] for choice in choices)
                   if None not in names[:3]), None)
@@ -215,7 +215,7 @@ def _colors(columns: Mapping[str, Array], chosen: dict[str, str], is_text: bool,
                 break
         if not all(name in columns for name in _HARMONICS):
             return None
-        notes.append("colors are those of splats seen from all sides: f_dc_0, f_dc_1, f_dc_2")
+        notes.append("colors are the splats' means over all directions: f_dc_0, f_dc_1, f_dc_2")
         colors: Array = 0.5 + _HARMONIC * np.stack([columns[name] for name in _HARMONICS], 1)
         return np.clip(colors, 0, 1)
     names = [name for name in found if name is not None]

@@ -74,7 +74,7 @@ def _of_pairs(particles: Particles, pairs: Array) -> Bonds:
 
 
 def _with_images(particles: Particles, bonds: Bonds) -> Bonds:
-    """Leads each bond to the nearest image of its second particle. Bonds must be shorter than half of the thickness of the cell."""
+    """Chooses the nearest image of each second particle, if bonds are shorter than half of the cell's thickness."""
     if particles.cell is None or bonds.images is not None:
         return bonds
     first, second = bonds.pairs.T
@@ -86,7 +86,7 @@ def _with_images(particles: Particles, bonds: Bonds) -> Bonds:
 def _automatic(particles: Particles, notes: list[str]) -> Bonds:
     given = particles.bonds
     if given is not None and given.is_complete:
-        notes.append(f"bonds are the {len(given.pairs):,} of the data")
+        notes.append(f"the {len(given.pairs):,} bonds of the data are drawn")
         return _with_images(particles, given)
     guessed = _guessed(particles, notes)
     if given is None:
@@ -97,7 +97,7 @@ def _automatic(particles: Particles, notes: list[str]) -> Bonds:
     if "resname" in particles.columns:
         has_bonds &= ~known_residues(particles)
     added = ~has_bonds[guessed.pairs].all(axis=1) & ~_are_among(guessed.pairs, given.pairs)
-    notes.append(f"bonds are {len(given.pairs):,} of the data, and {int(added.sum()):,} by distance")
+    notes.append(f"bonds: {len(given.pairs):,} of the data, and {int(added.sum()):,} by distance")
     images = None
     if given.images is not None and guessed.images is not None:
         images = np.concatenate([given.images, guessed.images[added]])
@@ -140,7 +140,7 @@ def stick_radius(ways: Doubles, model: str, radii: Array) -> float:
 
 
 def meeting_in_sight(halves: Rods, balls: Array) -> Rods:
-    """Lets both halves end in the middle of the visible part of the bond. `balls` has radii, shape (n,) or (1,)."""
+    """Both halves end in the middle of the bond's visible part. `balls` has radii, shape (n,) or (1,)."""
     if len(balls) == 1:
         return halves
     lengths = 2.0 * np.linalg.norm(halves.ways, axis=1)

@@ -14,10 +14,11 @@ FLAT: Final = 1e-10
 
 @dataclass(frozen=True)
 class Cell:
-    """A cell. It may be triclinic, left-handed or flat.
-    origin    shape (3,): corner at which the edges begin
-    vectors   shape (3, 3): an edge in each row; zeros for a missing edge
-    periodic  shape (3,): whether the cell repeats along each existing edge
+    """A cell, which may be triclinic, left-handed or flat.
+
+    origin    corner at which the edges begin
+    vectors   an edge in each row; zeros for a missing edge
+    periodic  shape (3,): whether the cell repeats along each edge
     """
 
     origin: Array
@@ -44,8 +45,7 @@ class Cell:
     @staticmethod
     def of_lengths(lengths: npt.ArrayLike, angles: npt.ArrayLike, periodic: npt.ArrayLike = True,
                    is_crystal_of_macromolecule: bool = False) -> Cell | None:
-        """Puts the first edge along x, the second into the plane of x and y. angles: degrees, between edges 2 and 3, 1
-        and 3, 1 and 2."""
+        """Puts the first edge along x and the second into the xy plane. angles: degrees, between edges 2 and 3, 1 and 3, 1 and 2."""
         a, b, c = np.array(lengths, np.float64)
         alpha, beta, gamma = np.cos(np.radians(np.array(angles, np.float64)))
         sine = np.sqrt(1 - gamma**2)
@@ -61,7 +61,7 @@ class Cell:
 
     @functools.cached_property
     def inverse(self) -> Array:
-        """(positions - origin) @ inverse are fractional coordinates. They are 0 along a missing edge."""
+        """(positions - origin) @ inverse are fractional coordinates, 0 along a missing edge."""
         inverse: Array = np.linalg.pinv(self.vectors)
         return inverse
 

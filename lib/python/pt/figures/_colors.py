@@ -23,18 +23,18 @@ Bytes: TypeAlias = npt.NDArray[np.uint8]
 RGB: TypeAlias = tuple[int, ...]
 
 PLAIN: Final = "#96aabe"
-# Okabe and Ito 2008, "Color Universal Design". The first two differ most in lightness, too.
+# Okabe and Ito 2008, "Color Universal Design". The first two also differ most in lightness.
 PALETTE: Final = ((0, 114, 178), (230, 159, 0), (0, 158, 115), (213, 94, 0), (86, 180, 233), (204, 121, 167),
                   (240, 228, 66))
-PALE: Final = 0.6  # fraction of the palette's distance from white, for carbon
-TINT: Final = 0.25  # fraction of an element's own color, mixed with the column's; by taste
+PALE: Final = 0.6  # carbon's distance from white, relative to the palette's
+TINT: Final = 0.25  # fraction of the element's own color in a mixture; by taste
 MOST_CATEGORIES: Final = 1000
-SKEW: Final = 4.0  # limit of (full range) / (range from 1% to 99%), which is 1 for uniform, 2 for normal and 3 for exponential values
+SKEW: Final = 4.0  # limit of (full range) / (range from 1% to 99%): 1 for uniform, 2 for normal, 3 for exponential values
 
 
 @dataclass(frozen=True)
 class ColorBar:
-    """The values `low` and `high` have the first and the last color. If they are equal, `norm` has a wider range."""
+    """`low` and `high` have the first and last color. If they are equal, `norm` has a wider range."""
 
     title: str
     low: float
@@ -131,8 +131,7 @@ def _named(particles: Particles, color: str, given: Options, notes: list[str]) -
 
 
 def _tinted(particles: Particles, name: str, given: Options, notes: list[str]) -> tuple[Bytes, Legend]:
-    """Carbon and hydrogen have a paler shade of the column's color. Other elements mix their own color with it. Residues outside polymers
-    have the colors of elements."""
+    """Carbon and hydrogen have a paler shade of the column's color. Other elements mix their own color into it."""
     pale, legend = _named(particles, name, given, notes)
     pale = np.broadcast_to((255.0 + PALE * (pale - 255.0)), (len(particles), 3))
     numbers = np.asarray(particles.elements)
@@ -152,7 +151,7 @@ def components(particles: Particles, name: str) -> list[str]:
 
 
 def _direct(colors: Any, notes: list[str]) -> Bytes:
-    """Floats are in [0, 1]. Unsigned integers reach to the largest value of their type, and signed ones to 255."""
+    """White is 1 for floats, 255 for signed integers, and the type's largest value for unsigned ones."""
     array = np.asarray(colors)
     if array.dtype.kind == "i" and array.size and 0 <= array.min() and array.max() <= 255:
         array = array.astype(np.uint8)
@@ -209,9 +208,9 @@ def _of_categories(title: str, names: list[str], codes: Array, given: Options, k
                    ) -> tuple[Bytes, Legend]:
     order = names if isinstance(given.categories, bool) else list(given.categories)
     if missing := [name for name in names if name not in order]:
-        raise ValueError(f"categories: {missing[0]!r} is in the data, and not among {', '.join(order[:20])}")
+        raise ValueError(f"categories: {missing[0]!r} is in the data, but not among {', '.join(order[:20])}")
     if len(names) > MOST_CATEGORIES:
-        raise ValueError(f"color: {len(names)} categories; there can be {MOST_CATEGORIES}")
+        raise ValueError(f"color: has {len(names)} categories: must have at most {MOST_CATEGORIES}")
     places = [order.index(name) for name in names]
     if numbered and all(name.isdigit() and 1 <= int(name) <= 64 for name in order):
         places = [int(name) - 1 for name in names]
@@ -269,7 +268,7 @@ def _of_numbers(values: Array, title: str, given: Options, notes: list[str]) -> 
 
 
 def _range(values: Array, given: Options, title: str, notes: list[str]) -> tuple[float, float]:
-    """The range of all finite numbers. If a few are far from the rest, the range from 1% to 99%."""
+    """Returns the range of the finite numbers or, if a few are far from the rest, from 1% to 99% of them."""
     least, largest = math.inf, -math.inf
     floor = 0.0 if given.scale == "log" else -math.inf
     for rows in chunks(len(values)):

@@ -55,7 +55,7 @@ def _without_objects(array: Array) -> Array:
 
 
 def plain_name(name: str) -> str:
-    """Drops units in brackets, separators and quotes, and converts to lower case: posx for "Pos_X [m]"."""
+    """Drops units, separators, quotes and case: posx for "Pos_X [m]"."""
     name = re.sub(r"\s*[\[(](?!\d+[\])])[^\])]*[\])]\s*$", "", name)
     return re.sub(r"[^a-z0-9]", "", name.lower())
 
@@ -80,8 +80,8 @@ def first_of(columns: Mapping[str, Array], names: tuple[str, ...]) -> str | None
 
 
 def coordinate_names(names: list[str]) -> tuple[list[str], bool]:
-    """Returns two, three or no names, and whether the columns are fractional coordinates. Beside x and y, Z is the third coordinate if
-    there is no z, otherwise the atomic number."""
+    """Returns two, three or no names, and whether they are fractional coordinates. Z is the atomic number beside x, y and z, but the third
+    coordinate beside x and y alone."""
     if all(axis in names for axis in "xyz"):
         return ["x", "y", "z"], False
     by_plain: dict[str, str] = {}

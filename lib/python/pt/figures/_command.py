@@ -24,8 +24,8 @@ from pt.figures._options import Options, two
 from pt.figures._series import frames, turntable
 
 EPILOG = """\
-DATA is a simulation, a molecule or a point cloud. The camera is as close as all balls in the picture permit. Units do not
-matter. Pictures of --frames and --turntable share one camera and one scale. # signs in their names become the number:
+DATA is a simulation, a molecule or a point cloud, in any units. The camera is as close as it can be with all balls in view.
+Pictures of --frames and --turntable share one camera and one scale. # signs in their names become the number:
   ffmpeg -framerate 25 -i f-%03d.png -pix_fmt yuv420p f.mp4    (after -o f-###.png)
 -o f.gif (by the module Pillow) and -o f.mp4 (by imageio-ffmpeg) hold all pictures of a series.
 """
@@ -53,7 +53,7 @@ def parser() -> argparse.ArgumentParser:
     command.add_argument("data", metavar="DATA", help="file of particles; - is standard input")
     add = command.add_argument_group("output").add_argument
     add("-o", "--output", action="append", default=[], metavar="IMAGE",
-        help="may be given again: .png and .jpg have the figure, .exr the linear radiance of its scene; - is standard "
+        help="may be repeated: .png and .jpg show the figure, .exr has the linear radiance of its scene; - is standard "
         "output")
     add("--format", dest="output_format", choices=PICTURES, help="format of an image on standard output")
     add("--png-bits", type=int, choices=(8, 16), default=8)
@@ -62,7 +62,7 @@ def parser() -> argparse.ArgumentParser:
     add("--turntable", type=at_least(2, int), metavar="N", help="N pictures of a full turn about the vertical axis; lamps move "
         "with the camera")
     add("--frames", type=typed(two("-", int), "two frames like 0-99"), metavar="A-B", help="a picture of each frame")
-    add("--trails", type=at_least(1, int), default=0, metavar="N", help="with --frames, each particle's positions in the "
+    add("--trails", type=at_least(1, int), default=0, metavar="N", help="with --frames, draws each particle's path through the "
         "N frames before; steps through walls of a periodic cell are left out")
     add("--progress", choices=("auto", "json", "none"), default="auto")
     add("-q", "--quiet", action="store_true", help="print errors only")
@@ -108,7 +108,7 @@ def check(given: argparse.Namespace) -> None:
     if given.trails and not given.frames:
         refuse("--trails: only with --frames")
     if given.frames and given.data == "-":
-        refuse("--frames: read the file twice, which standard input cannot be")
+        refuse("--frames: standard input cannot be read twice")
     if given.data != "-" and not os.access(given.data, os.R_OK):
         refuse(f"{given.data}: does not exist or cannot be read", FILES)
     if "-" in given.output and (series or not given.output_format):
@@ -116,7 +116,7 @@ def check(given: argparse.Namespace) -> None:
     for path in pictures:
         stem, ending = os.path.splitext(path)
         if ending.lower() in FILMS:
-            refuse(f"-o {path}: a film is made of pictures: -o {stem}-###.png with --frames or --turntable, and then "
+            refuse(f"-o {path}: write pictures by -o {stem}-###.png with --frames or --turntable, and then run "
                    f"ffmpeg -framerate 25 -i {stem}-%03d.png {path}")
         is_movie = ending.lower() in MOVIES
         if is_movie and not series:
@@ -124,7 +124,7 @@ def check(given: argparse.Namespace) -> None:
         if is_movie:
             check_movie(path)
         if series and not is_movie and "#" not in os.path.basename(path):
-            refuse(f"-o {path}: for a series the name needs # signs for the number")
+            refuse(f"-o {path}: a series needs # signs in the name, for the number")
         if given.background == "transparent" and path.lower().endswith((".jpg", ".jpeg", *MOVIES)):
             refuse(f"--background transparent: -o {path}: {'this format' if is_movie else 'JPEG'} has no alpha; .png has")
     if wrong := misnamed(files, given.data):

@@ -8,17 +8,16 @@ import numpy.typing as npt
 from pt._fit import Doubles
 from pt.figures._overlay import Shares
 
-FLAT: Final = 0.75  # fraction of the colors without light, in the illustrative style; by taste
+FLAT: Final = 0.75  # fraction of unlit color in the illustrative style; by taste
 
 
 def compose(radiance: npt.NDArray[np.float32], stage: Any, shares: Shares, exposure: float) -> tuple[Doubles, Doubles]:
-    """Returns linear light multiplied by alpha, shape (height, width, 3), and alpha, shape (height, width).
+    """Returns linear light multiplied by alpha, shape (height, width, 3), and alpha, shape (height, width). `stage` is the radiance of the
+    scene without particles: an image, or a number if all pixels are alike.
 
-    stage   radiance of the scene without particles: an image, or a number if all pixels are alike
-
-    Debevec 1998, "Rendering Synthetic Objects into Real Scenes", section 5: the background
-    gets the change that the particles make. A pixel with coverage a has the light T(radiance) + (1 - a) (1 - T(stage)) over white, with the
-    exposure T. Alpha is the smallest that gives this light over white.
+    Debevec 1998, "Rendering Synthetic Objects into Real Scenes", section 5: the background gets the change that the particles make. A
+    pixel with coverage a and exposure T has the light T(radiance) + (1 - a) (1 - T(stage)) over white. Alpha is the smallest that gives
+    this light.
     """
     if shares.flat is not None:
         radiance = radiance + np.float32(FLAT) * (shares.flat + (1.0 - shares.shapes[:, :, None]) * stage - radiance)

@@ -1,5 +1,3 @@
-"""Particles as balls and rods, before a camera looks at them."""
-
 from __future__ import annotations
 
 import math
@@ -30,13 +28,13 @@ LEAST_LENGTH: Final = 1e-18
 
 @dataclass(frozen=True)
 class Drawn:
-    """Particles as balls in scene units. Scene units are the data's units, times a power of two if lengths are far from 1.
+    """Balls and rods in scene units: the data's units, times a power of two if lengths are far from 1.
 
     colors      shape (n, 3), or (3,) for one color
     scale       scene units per unit of the data
-    settled     options with the values that follow from the data, in its units
+    settled     values that options get from the data, in its units
     opacities   shape (n,); None if all are opaque
-    groups      shape (n, 2): chain and residue; None if unknown
+    groups      shape (n, 2): chain and residue
     """
 
     centers: Array
@@ -77,7 +75,7 @@ class Drawn:
 
 
 def prepare(particles: Particles, options: Options, scale: float | None = None, past: Sequence[Particles] = ()) -> Drawn:
-    """Hidden particles count for radii, color ranges and categories, too. `past` has earlier frames, for trails."""
+    """Hidden particles count for radii, color ranges and categories. `past` has earlier frames, for trails."""
     notes = list(particles.notes)
     if not len(particles.positions):
         raise ValueError(f"{particles.name} has no particles")
@@ -132,7 +130,7 @@ def prepare(particles: Particles, options: Options, scale: float | None = None, 
 
 
 def _shown(particles: Particles, options: Options, radii: Array, notes: list[str], hidden: Array | None) -> Array | None:
-    """`hidden` are atoms whose place a tube takes."""
+    """`hidden` marks atoms that a tube replaces."""
     conditions = [options.where] if isinstance(options.where, str) else options.where
     shown: Array | None = np.logical_and.reduce([chosen(particles, each) for each in conditions]) if conditions else None
     if shown is not None and not shown.any():

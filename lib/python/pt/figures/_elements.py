@@ -12,7 +12,7 @@ SYMBOLS: Final = tuple(
     "? H He Li Be B C N O F Ne Na Mg Al Si P S Cl Ar K Ca Sc Ti V Cr Mn Fe Co Ni Cu Zn Ga Ge As Se Br Kr Rb Sr Y Zr Nb "
     "Mo Tc Ru Rh Pd Ag Cd In Sn Sb Te I Xe Cs Ba La Ce Pr Nd Pm Sm Eu Gd Tb Dy Ho Er Tm Yb Lu Hf Ta W Re Os Ir Pt Au "
     "Hg Tl Pb Bi Po At Rn Fr Ra Ac Th Pa U Np Pu Am Cm".split())
-"""Indexed by atomic number, as the tables below. 0 is an unknown element."""
+"""Indexed by atomic number, like the tables below. 0 is an unknown element."""
 
 # Angstroms, 0 if unknown. Alvarez, Dalton Trans. 42 (2013) 8617.
 VAN_DER_WAALS_RADII: Final = np.array((
@@ -32,7 +32,7 @@ COVALENT_RADII: Final = np.array((
     2.03, 2.01, 1.99, 1.98, 1.98, 1.96, 1.94, 1.92, 1.92, 1.89, 1.9, 1.87, 1.87, 1.75, 1.7, 1.62, 1.51, 1.44, 1.41,
     1.36, 1.36, 1.32, 1.45, 1.46, 1.48, 1.4, 1.5, 1.5, 2.6, 2.21, 2.15, 2.06, 2, 1.96, 1.9, 1.87, 1.8, 1.69), np.float32)
 
-# Daltons. IUPAC 2016. Without a stable isotope, the mass of the longest-lived one.
+# Daltons. IUPAC 2016. An element without a stable isotope has the mass of its longest-lived one.
 MASSES: Final = np.array((
     0,
     1.008, 4.0026, 6.94, 9.01218, 10.81, 12.011, 14.007, 15.999, 18.9984, 20.1797, 22.9898, 24.305, 26.9815,
@@ -100,11 +100,8 @@ def _number(label: str, is_atom_name: bool) -> int:
 
 
 def elements_of(labels: Array) -> tuple[Array | None, list[str]]:
-    """Returns atomic numbers, shape (n,), uint8, 0 for unknown, or None if all are unknown. Also returns notes for the user.
-
-    labels  shape (n,): symbols in any case, also with digits or charges; PDB atom names; or atomic numbers
-
-    """
+    """Returns atomic numbers, 0 if unknown, and notes; None if all are unknown. `labels` are symbols in any case, also with digits or
+    charges; PDB atom names; or atomic numbers."""
     values, codes = distinct(labels)
     names = [str(value) for value in values]
     if "A" in names and all(len(name) == 1 for name in names):
@@ -124,7 +121,7 @@ def elements_of(labels: Array) -> tuple[Array | None, list[str]]:
 
 
 def elements_of_masses(masses: Array) -> npt.NDArray[np.uint8]:
-    """Returns 0 for unknown masses. If most masses (daltons) are 1, all are unknown. United atoms count as carbon."""
+    """Returns 0 for unknown masses (daltons), and for all if none is heavier than helium. United atoms count as carbon."""
     away = np.abs(masses[:, None] - MASSES)
     away[:, 0] = np.inf
     nearest = away.argmin(axis=1)

@@ -12,7 +12,7 @@ EXTRAS: Final = {"matplotlib": "figure", "PIL": "figure", "pandas": "figure", "z
 
 
 class DataError(ValueError):
-    """The message names the file, the line or byte, and the expectation."""
+    """The message names the file, the line or byte, and the rule."""
 
 
 def module(name: str, purpose: str) -> ModuleType:

@@ -178,12 +178,11 @@ class Staged:
 
 
 class Figure(Image):
-    """An Image whose picture has a background, lines and a color bar. Its numbers do not contain them.
+    """An Image whose picture also has a background, lines and a color bar, which its radiance lacks.
 
-    scene      scene with camera and settings
-    legend     meaning of the colors, or None
-    notes      sentences on choices made from the data, and on what is not shown
-    noise      of the picture; None if the image is denoised
+    legend  meaning of the colors, or None
+    notes   choices made from the data, and parts that are not shown
+    noise   None if the image is denoised
     """
 
     def __init__(self, image: Image, staged: Staged, stage: Any, shares: Shares) -> None:
@@ -214,8 +213,8 @@ class Figure(Image):
         return options.size or (width + _strip_of(self.legend, height, options), height)
 
     def to_srgb8(self, exposure: float | None = None, **display: Any) -> npt.NDArray[np.uint8]:
-        """Returns sRGB, shape (height, width, 3), or 4 channels with a transparent background. exposure: stops; None:
-        the figure's exposure, else automatic. display: as in Image, applied to the light over the background."""
+        """Returns sRGB, shape (height, width, 3), or 4 channels with a transparent background. exposure: stops; None: the figure's
+        exposure, else automatic. display: as in Image, applied to the light over the background."""
         return self.picture(np.uint8, exposure, **display)
 
     def picture(self, dtype: Any = np.uint8, exposure: float | None = None, **display: Any) -> npt.NDArray[Any]:
@@ -246,7 +245,7 @@ class Figure(Image):
         return result
 
     def encode(self, format: str, *, exposure: float | None = None, bits: int = 8) -> bytes:
-        """Returns a png, jpg or exr file. exr has linear radiance. bits: 8 or 16, for png."""
+        """Returns a png, jpg or exr file. exr has linear radiance. bits: 8 or, for png, 16."""
         if format == "exr":
             return encode_exr(self.radiance)
         if format in ("jpg", "jpeg"):
@@ -258,8 +257,7 @@ class Figure(Image):
         return encode_png(self.picture(np.uint8 if bits == 8 else np.uint16, exposure), self._staged.options.printed_dpi)
 
     def save(self, path: Path, *, exposure: float | None = None, bits: int = 8) -> None:
-        """Writes the picture (.png, .jpg) or the linear radiance (.exr, .npy) atomically. Raises ValueError for another
-        ending."""
+        """Writes the picture (.png, .jpg) or the linear radiance (.exr, .npy) atomically. Raises ValueError for another ending."""
         format = format_of(path, (*PICTURES, "npy"))
         if format == "npy":
             super().save(path)
@@ -268,12 +266,11 @@ class Figure(Image):
             write_atomically(path, lambda file: file.write(data))
 
     def save_legend(self, path: Path) -> None:
-        """Writes .svg, .pdf or .png. Raises ValueError if colors have no meaning."""
+        """Writes .svg, .pdf or .png. Raises ValueError if there is no legend."""
         self._staged.save_legend(path)
 
     def save_scene(self, path: Path) -> None:
-        """Writes a scene file for `pt render`, and the particles as NPY files, without background, outlines, color bar
-        and seed."""
+        """Writes a scene file for `pt render` and NPY files of the particles, without background, outlines, color bar and seed."""
         self._staged.save_scene(path)
 
     def _repr_png_(self) -> bytes:
@@ -297,7 +294,7 @@ def _pixels(radiance: Array, stage: Any, shares: Shares, exposure: float, backgr
 
 
 def _sixteen_bits(options: Options, stage: Any, shares: Shares, light: Array, radiance: Array) -> npt.NDArray[Any]:
-    """The picture of `light`, with the exposure of `radiance`. A transparent one lies over white."""
+    """Automatic exposure depends on `radiance`. Instead of a transparent background, white is shown."""
     exposure = automatic_exposure(radiance) if options.exposure is None else options.exposure
     background, _ = _background(options.background)
     return _pixels(light, stage, shares, exposure, np.ones(3) if background is None else background, np.uint16)

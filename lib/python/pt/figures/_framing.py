@@ -13,7 +13,7 @@ from pt.figures._spread import middle_of, reaches_of, usual_reach
 
 FAR: Final = 4.0
 BEYOND: Final = 1.25
-LARGE: Final = 10.0  # a cell of this multiple of the particles' reach is too large; by taste
+LARGE: Final = 10.0  # a cell that is larger than this multiple of the particles' reach is not drawn; by taste
 OUTSIDE: Final = 0.1
 WALL: Final = 0.01
 LEAST_COVER: Final = 0.1
@@ -21,7 +21,7 @@ WIDTH: Final = 8.0
 
 
 def far_away(positions: Array, radii: Array, notes: list[str]) -> Array | None:
-    """Finds balls so far away that the others would hardly be visible. A ball as large as all others together is never far away."""
+    """Masks balls so far away that the others would hardly be visible. A ball as large as all others together is never far away."""
     reaches = reaches_of(positions, radii)
     usual = usual_reach(reaches)
     usual = max(usual, float(reaches.max(where=radii > usual, initial=0.0)))
@@ -36,8 +36,7 @@ def far_away(positions: Array, radii: Array, notes: list[str]) -> Array | None:
 
 
 def drawn_cell(particles: Particles, box: str, positions: Array, radii: Array, notes: list[str]) -> Cell | None:
-    """By default a cell is not drawn if it belongs to a protein's crystal, or if most particles are outside of the cell or much smaller.
-    `positions` and `radii` belong to drawn particles."""
+    """`positions` and `radii` belong to drawn particles."""
     cell = particles.cell
     if cell is None or box == "none" or (box == "auto" and cell.is_crystal_of_macromolecule):
         return None
@@ -68,8 +67,8 @@ def _hides(cell: Cell, positions: Array, radii: Array) -> bool:
 
 
 def narrow_note(radii: Array, pixels: float, size: tuple[int, int], scale: float) -> str | None:
-    """A note for balls that are narrower than a pixel and together cover little of the picture. `radii` are in scene units, `pixels` is
-    the number per scene unit, and `scale` is in scene units per unit of the data."""
+    """Concerns balls that are narrower than a pixel and together cover little of the picture. `radii` are in scene units, `pixels` counts
+    pixels per scene unit, and `scale` is in scene units per unit of the data."""
     if float(radii.min()) >= 0.5 / pixels:
         return None
     halves = radii * pixels

@@ -83,7 +83,7 @@ class View:
 
 
 def _shape(extents: Doubles) -> tuple[int, int]:
-    """Returns width and height, multiples of 8 with about PIXELS pixels. Their ratio follows the extents, up to MOST_ASPECT."""
+    """Returns multiples of 8 with about PIXELS pixels, in the ratio of the extents, up to MOST_ASPECT."""
     aspect = min(max(float(extents[0] / extents[1]), 1.0 / MOST_ASPECT), MOST_ASPECT)
     sides = [8 * math.floor(side / 8.0 + 0.5) for side in (math.sqrt(PIXELS * aspect), math.sqrt(PIXELS / aspect))]
     return sides[0], sides[1]
@@ -91,7 +91,7 @@ def _shape(extents: Doubles) -> tuple[int, int]:
 
 @dataclass(frozen=True)
 class Layout:
-    """`distance` goes from the camera to the middle of the contents along the view. If the camera is inside, it is half of their extent.
+    """`distance` goes along the view from the camera to the middle of the contents, or is half of their extent if the camera is inside.
     `deep` is their extent along the view."""
 
     size: tuple[int, int]
@@ -103,7 +103,7 @@ class Layout:
 
     @staticmethod
     def of(view: View, reaches: Doubles, style: str, floor: bool) -> Layout:
-        """reaches: View.reaches of everything shown. Raises ValueError if the floor would hide some of it."""
+        """`reaches` is View.reaches of everything shown. Raises ValueError if the camera is below the floor."""
         axes, forward = view.axes, view.axes[2]
         extents = Extents.of(reaches[:6])
         middle = extents.middle
@@ -130,14 +130,14 @@ class Layout:
         if floor:
             up, height = view.compass.up, -float(reaches[6]) - FLOOR_GAP * radius
             if up @ position <= height:
-                raise ValueError("floor: the camera is below it, by the view, and would see nothing else")
+                raise ValueError("floor: the view puts the camera below it, where the floor would hide everything")
             plane = Plane(up, -height, FLOOR)
         return Layout(view.size, axes, camera, distance, make_stage(style, axes, distance, center, radius, plane),
                       float(extents.size[2]))
 
 
 def _lens(distance: float, deep: float) -> dict[str, Any]:
-    """The far end is blurred to a circle of BLUR of the picture's height."""
+    """The far end is blurred to a circle whose diameter is BLUR of the picture's height."""
     focus = distance - 0.25 * deep
     spread = 1.0 / focus - 1.0 / (distance + 0.5 * deep)
     return {"aperture": min(2.0 * BLUR * math.tan(0.5 * VERTICAL_FOV) / spread, focus), "focus": focus} if spread > 0.0 else {}

@@ -23,9 +23,9 @@ def _plain(text: str) -> str:
 
 
 def draw(legend: Legend, height: float, font: float, ink: Any) -> Any:
-    """`height`, in inches, is the height of a color bar and the limit for a column of swatches. `font` is in points."""
+    """`height`, in inches, is the height of a color bar, and the limit for a column of swatches. `font` is in points."""
     if legend is None:
-        raise ValueError("legend: there is nothing to tell, as all colors are given or alike")
+        raise ValueError("legend: is empty, because all colors are given or alike")
     with _matplotlib().rc_context({"font.size": font, "text.color": ink, "axes.labelcolor": ink, "axes.edgecolor": ink,
                      "xtick.color": ink, "ytick.color": ink, "axes.linewidth": font / 14.0}):
         sheet = _matplotlib("figure").Figure(figsize=(3.0, height))

@@ -1,5 +1,3 @@
-"""The scale bar."""
-
 from __future__ import annotations
 
 import io
@@ -14,12 +12,12 @@ from pt._fit import Doubles
 from pt.figures._errors import module
 from pt.figures._legend import POINTS_PER_INCH
 
-MARGIN: Final = 0.04  # of the picture's shorter side; by taste
-THICK: Final = 0.25  # of the font's size
+MARGIN: Final = 0.04  # relative to the picture's shorter side; by taste
+THICK: Final = 0.25  # relative to the font size
 
 
 def bar_length(text: str | float) -> float:
-    """The number at the beginning, in units of the data."""
+    """Returns the first number of `text`, in units of the data."""
     found = re.match(r"\s*([\d.]+(?:[eE][-+]?\d+)?)", str(text))
     return float(found[1]) if found else 0.0
 
@@ -31,7 +29,7 @@ def with_scale_bar(pixels: npt.NDArray[Any], text: str | float, camera: Camera, 
     assert camera.vertical_extent is not None
     length = bar_length(text) * scale * height / camera.vertical_extent
     if not 0.0 < length <= width * (1.0 - 2.0 * MARGIN):
-        raise ValueError(f"scale_bar = {text!r}: is longer than the picture, of {width / height * camera.vertical_extent / scale:.3g}")
+        raise ValueError(f"scale_bar = {text!r}: is longer than the picture, {width / height * camera.vertical_extent / scale:.3g}")
     thick, margin = max(2, round(THICK * font * dpi / POINTS_PER_INCH)), round(MARGIN * min(width, height))
     shares = np.zeros((height, width))
     bottom = height - margin

@@ -1,5 +1,3 @@
-"""GIF and MP4 files of series."""
-
 from __future__ import annotations
 
 import io
@@ -18,7 +16,7 @@ MOVIES: Final = (".gif", ".mp4")
 
 
 def check_movie(path: str) -> None:
-    """Raises DataError, with the way to install it, if a module is missing."""
+    """Raises DataError if the format's module is missing."""
     module("PIL.Image" if path.lower().endswith(".gif") else "imageio_ffmpeg", f"-o {path}")
 
 

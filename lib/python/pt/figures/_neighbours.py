@@ -18,11 +18,10 @@ AHEAD: Final = ((0, 1), (1, -1), (1, 0), (1, 1))  # steps to half of the neighbo
 
 
 class Pairs(NamedTuple):
-    """Pairs of different particles or images. Each pair occurs once.
+    """Pairs of different particles or images, each once.
 
-    first, second   shape (k,): indices
-    images          shape (k, 3), int: how many edges of the cell the second particle is moved by
-    squares         shape (k,): squared distances
+    images    shape (k, 3), int: the second particle moves by images @ cell.vectors
+    squares   squared distances
     """
 
     first: Array
@@ -32,7 +31,7 @@ class Pairs(NamedTuple):
 
 
 def pairs_within(positions: Array, cutoff: float, cell: Cell | None, radii: Array | None = None, slack: float = 0.0) -> Pairs:
-    """Pairs at most `cutoff` apart. With radii, at most their sum plus `slack`. Raises ValueError for too many."""
+    """Finds pairs at most `cutoff` apart and, with radii, at most their sum plus `slack`. Raises ValueError for too many."""
     positions = positions.astype(np.float64)
     sources, shifts = _images(positions, cell, cutoff)
     places = positions[sources] if cell is None else positions[sources] + shifts @ cell.vectors
@@ -59,15 +58,14 @@ def pairs_within(positions: Array, cutoff: float, cell: Cell | None, radii: Arra
 
 
 def _is_first(first: Array, second: Array, steps: Array) -> Array:
-    """Chooses one of each pair and its reverse, which has opposite steps."""
+    """Chooses one of each pair and its reverse, whose steps are opposite."""
     ahead = np.sign(steps) @ (9, 3, 1)
     result: Array = (first < second) | ((first == second) & (ahead > 0))
     return result
 
 
 def _images(positions: Array, cell: Cell | None, cutoff: float) -> tuple[Array, Array]:
-    """Returns the index and the shift of each particle in the cell, then of each image within the cutoff. A shift counts the edges of
-    the cell."""
+    """Returns index and shift, in edges of the cell, of each particle in the cell, then of each image within the cutoff."""
     sources = np.arange(len(positions))
     if cell is None:
         return sources, np.zeros((len(positions), 3))

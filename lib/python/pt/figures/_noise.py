@@ -20,17 +20,17 @@ MOST_NOISE: Final = 1.5  # steps of 1/255; by taste
 FIRST_SAMPLES: Final = 16  # the fewest with a stated error
 MOST_SAMPLES: Final = 256  # of a pixel; fine textures hide the remaining noise; by taste
 WORST: Final = 1.5  # largest noise of a neighbourhood, relative to MOST_NOISE; by taste
-FLOOR: Final = 0.4  # the same of an even floor, where noise shows most
+FLOOR: Final = 0.4  # like WORST, for an even floor, where noise shows most
 SHARE: Final = 1.03  # a round aims at this multiple of the allowed square, because quasi-random samples do better than random ones
 SEQUENCES: Final = 1.0 / math.sqrt(7.0)  # the error of quasi-random points may be this fraction of the stated one
 
-Show = Callable[[Array, Array], Array]  # 16 bits of light, with the exposure of an image
+Show = Callable[[Array, Array], Array]  # shows light in 16 bits, with the exposure of an image
 
 
 @dataclass(frozen=True)
 class Noise:
-    """Root mean square error of means of 2 x 2 pixels with particles, in steps of 1/255 of the display, with bounds of 95% confidence.
-    The eye hardly resolves single pixels, whose errors are independent and twice as large."""
+    """Root mean square error of 2 x 2 pixels' mean, where particles are, in steps of 1/255 of the display, with bounds of 95% confidence.
+    The eye hardly resolves single pixels, whose errors are twice as large."""
 
     rms: float
     low: float
@@ -38,7 +38,7 @@ class Noise:
 
     @staticmethod
     def of(squares: Doubles) -> Noise:
-        """The sum of squares behaves as if it came from (sum of squares)^2 / (sum of their squares) equal pixels."""
+        """For the bounds, n = (sum of squares)^2 / (sum of fourth powers) equal pixels would have the same uncertainty."""
         if not squares.size:
             return Noise(0.0, 0.0, 0.0)
         mean, spread = float(squares.mean()), 1.96 * math.sqrt(float(np.square(squares).sum())) / squares.size
@@ -49,7 +49,7 @@ class Noise:
 
 
 def squares_of(show: Show, radiance: npt.NDArray[np.float32], error: npt.NDArray[np.float32]) -> Doubles:
-    """Returns a quarter of each pixel's squared error in steps of 1/255, averaged over channels."""
+    """Returns a quarter of each pixel's squared error, in steps of 1/255, averaged over channels."""
     darker, brighter = (show(np.maximum(each, 0.0), radiance).astype(np.float64) for each in (radiance - error, radiance + error))
     squares: Doubles = np.square((brighter - darker) * (0.25 * 255.0 / 65535.0)).mean(axis=2)
     return squares
@@ -84,8 +84,8 @@ def until_invisible(context: Context, scene: Scene, camera: Camera, settings: Re
 
 
 def _goals(squares: Doubles, covered: Array, counts: Doubles, noise: Noise) -> Doubles:
-    """Returns the samples of each tile after the next round. The smallest sum that reaches the noise has counts in proportion to the
-    root of the variance. Variances are means over a tile and its neighbours, because one tile's may be small by chance."""
+    """Returns each tile's samples after the next round. The fewest that reach the noise are proportional to the root of the variance.
+    Variances are means over neighbouring tiles, because a single one may be small by chance."""
     pixels = _by_tiles(covered | (squares > 0.0))
     variances = _around(_by_tiles(squares) * counts) / np.maximum(_around(pixels), 1.0) * (pixels > 0.0)
     weights = variances * _by_tiles(covered)

@@ -37,8 +37,7 @@ MOST_SAMPLES: Final = 65536
 
 
 def _option(group: str, default: Any, metavar: str, words: str, **more: Any) -> Any:
-    """`more` may have choices, rule (a condition on the value with its words), flag (the name on the command line), and read (converts text
-    to the value)."""
+    """`more` may have choices, rule (a condition and its words), flag (the name on the command line), and read (converts text)."""
     return field(default=default, metadata={"group": group, "metavar": metavar, "words": words, **more})
 
 
@@ -87,8 +86,8 @@ class Options:
     columns: Columns = _data(None, "x=NAME,...", "names of the columns for x, y, z, radius, diameter, element, type, red, green, "
                              "blue, instead of the detected ones")
     drop_nonfinite: bool = _data(False, "", "leaves out particles whose position or radius is not finite")
-    where: str | Sequence[str] = _data((), "SELECTION", "shows only these particles: columns with values or comparisons, with and, "
-                                       "or, not, parentheses and within, \"resname XK2 or within 5 of (chain A and z > 3)\", "
+    where: str | Sequence[str] = _data((), "SELECTION", "shows only these particles: values or comparisons of columns, combined by and, "
+                                       "or, not, within and parentheses: \"resname XK2 or within 5 of (chain A and z > 3)\", "
                                        "\"not water\", \"resid 10-20\". Hidden particles count for ranges of colors and radii")
     repeat: tuple[int, int, int] | None = _data(
         None, "A,B,C", "how often the cell is repeated along its edges", read=_three,
@@ -98,14 +97,14 @@ class Options:
     color: Color = _particles(
         None, "COLUMN|COLOR|...", "a column of numbers or words; a magnitude, \"|velocity|\" or \"|vx,vy,vz|\"; columns of "
         "sRGB, \"red,green,blue\"; one color, \"#ff8000\" or \"orange\"; colors of types and selections, \"O=red,H=#ffffff,chain A=blue\", "
-        "also after a column; \"chain+element\", a column tinted by elements. In Python also "
+        "which may follow a column; \"chain+element\", a column tinted by elements. In Python also "
         "{\"O\": \"red\"}, and arrays of shape (n,), or (n, 3) of sRGB, floats from 0 to 1 or uint8. Default: Jmol's colors of "
         "elements, with light grey hydrogen; else a palette of types; else the data's colors; else grey")
     colormap: Any = _particles(None, "MAP", "name of a matplotlib colormap; the suffix _r reverses it. In Python also an object. "
                                "Default: viridis, or coolwarm on a symmetric scale")
     range: tuple[float, float] | None = _particles(
-        None, "LO,HI", "numbers with the first and the last color. Default: all numbers or, if these reach more than 4 times as far "
-        "as 1% to 99% of them, the latter, with a note", flag="--color-range", read=two(",", float))
+        None, "LO,HI", "numbers with the first and the last color. Default: from the least to the largest number or, if this range is "
+        "more than 4 times as wide, from 1% to 99% of the numbers, with a note", flag="--color-range", read=two(",", float))
     scale: str = _particles("linear", "", "scale of the colors; symmetric is centered at 0", flag="--color-scale",
                             choices=("linear", "log", "symmetric"))
     categories: bool | Sequence[str] = _particles(False, "", "treats numbers as names of categories with different colors. In "
@@ -114,57 +113,59 @@ class Options:
     title: str | None = _particles(None, "WORDS", "title of the legend, with the unit; matplotlib's TeX. Default: the column")
     colorbar: bool = _particles(False, "", "draws the legend at the right of the picture")
     radius: Radius = _particles(
-        None, "R|COLUMN|...", "a number in the units of the data; a column; covalent, van-der-waals or solvent-accessible, which "
-        "is larger by 1.4 (for elements, in angstroms); radii of types and selections, \"O=0.7,H=0.3\", \"covalent,chain A=2\"; a factor with any of them, \"0.5*diameter\". In Python also {\"O\": 0.7} "
+        None, "R|COLUMN|...", "a number in the units of the data; a column; radii of elements in angstroms: covalent, van-der-waals, or "
+        "solvent-accessible, which adds 1.4; radii of types and selections, \"O=0.7,H=0.3\", \"covalent,chain A=2\"; any of these times "
+        "a factor, \"0.5*diameter\". In Python also {\"O\": 0.7} "
         "and arrays. Default: the data's radii; else covalent radii if distances are in angstroms, up to 3 times as large for "
-        "neighbours that are not bonded; else half of the distance of most neighbours")
+        "neighbours that are not bonded; else half of the usual distance of neighbours")
 
     opacity: Opacity = _particles(
-        None, "A|COLUMN", "probability from 0 to 1 that a ray hits a particle, its bonds and its vector: a number, a column, or of "
-        "selections, \"chain A=0.3\"; in Python also an array. Default: 1")
+        None, "A|COLUMN", "probability from 0 to 1 that a ray hits a particle, its bonds and its vector: a number, a column, or numbers "
+        "for selections, \"chain A=0.3\"; in Python also an array. Default: 1")
     bonds: Bonds = _particles(
         None, "auto|CUTOFF", "auto (in Python also True) bonds atoms whose distance is at most the sum of their covalent radii "
         "(Cordero 2008) and 0.45 angstroms, as in Open Babel; a number bonds all within this distance. In Python also pairs of "
         "indices, shape (k, 2). Default: no bonds")
     wall_bonds: str = _particles("halves", "", "bonds through the walls of a periodic cell", choices=("halves", "none"))
-    model: str | Mapping[str, str] = _particles("auto", "MODEL", "auto, space-filling, ball-and-stick, sticks or tube, also of selections, "
-                            "\"space-filling,resname XK2=sticks\". ball-and-stick halves the radii unless radius is given; sticks (licorice) has no balls. "
-                            "Both have bonds. tube goes through CA of amino acids and P of nucleotides, by chain; other residues are balls "
-                            "and sticks. auto is ball-and-stick with bonds, otherwise space-filling")
+    model: str | Mapping[str, str] = _particles(
+        "auto", "MODEL", "auto, space-filling, ball-and-stick, sticks or tube, also for selections, \"space-filling,resname XK2=sticks\". "
+        "ball-and-stick halves the radii unless radius is given; sticks (licorice) has no balls. Both have bonds. tube goes through CA of "
+        "amino acids and P of nucleotides, by chain; other residues are balls and sticks. auto is ball-and-stick with bonds, otherwise "
+        "space-filling")
     bond_radius: float | None = _particles(
-        None, "R", "radius of bonds in the units of the data, or of tubes. Default: 0.07 of the median length of bonds, for "
-        "sticks 0.14, and 0.14 of the distance between a tube's atoms",
+        None, "R", "radius of bonds and tubes in the units of the data. Default: 0.07 of the median length of bonds, 0.14 of it for "
+        "sticks, and for tubes 0.14 of the median distance of their atoms",
         read=float, rule=(lambda radius: 0.0 < radius < math.inf, "> 0 and finite"))
-    vectors: Vectors = _particles(None, "vx,vy,vz", "columns, or v or velocity as in color, in Python also an array of shape (n, "
-                                  "3). Each vector is a capsule from the particle's center, in its color")
+    vectors: Vectors = _particles(None, "vx,vy,vz", "three columns, or their common name, such as v or velocity; in Python also an array "
+                                  "of shape (n, 3). Each vector is a capsule from the particle's center, in the particle's color")
     vector_scale: float | None = _particles(
-        None, "S", "length of a vector of length 1. Default: the longest vector has 4 median radii", read=float,
+        None, "S", "drawn length of a vector of length 1. Default: the longest vector has 4 median radii", read=float,
         rule=(lambda scale: 0.0 < scale < math.inf, "> 0 and finite"))
 
-    size: tuple[int, int] | None = _view(None, "WxH", "pixels, including the color bar. Default: as many as 1024x768, in the "
+    size: tuple[int, int] | None = _view(None, "WxH", "pixels, including the color bar. Default: as many pixels as 1024x768, in the "
                                          "shape of the data", read=two("x", int))
-    width: str | float | None = _view(None, "LENGTH", "width of the whole picture on paper, 8.5cm, 85mm or 3.35in (in Python also inches), "
-                                      "instead of a size; the height follows from the data")
+    width: str | float | None = _view(None, "LENGTH", "width of the whole picture on paper, instead of a size: 8.5cm, 85mm or 3.35in (in "
+                                      "Python also a number of inches). The height follows from the data")
     dpi: float | None = _view(None, "N", "pixels per inch, which .png and .jpg state. Default: 300 with a width", read=float,
                               rule=(lambda dpi: 1.0 <= dpi <= 10000.0, "from 1 to 10000"))
-    font_size: float | None = _view(None, "POINTS", "size of the words at this dpi, 7 or 7pt. Default: a fiftieth of the height",
+    font_size: float | None = _view(None, "POINTS", "size of the text at this dpi, 7 or 7pt. Default: a fiftieth of the height",
                                     read=lambda text: float(text.removesuffix("pt")),
                                     rule=(lambda points: 0.0 < points < 1000.0, "> 0 and < 1000"))
-    scale_bar: str | float | None = _view(None, "LENGTH", "draws a bar of this length in units of the data, 10 or \"10 nm\"; only "
-                                          "orthographic, because in perspective lengths depend on the depth")
+    scale_bar: str | float | None = _view(None, "LENGTH", "draws a bar of this length in units of the data, 10 or \"10 nm\". Needs an "
+                                          "orthographic projection, because in perspective lengths depend on the depth")
     view: Direction = _view(VIEWS[0], "SIDE|X,Y,Z", f"{', '.join(VIEWS)}, or the direction to the camera. best looks along the "
                             "shortest principal axis, with the longest one across")
     up: Direction = _view("z", "AXIS|X,Y,Z", "upward direction of the data and the picture: x, y, z, -x, -y, -z, or a vector")
     projection: str = _view("perspective", "", "projection of the camera", choices=("perspective", "orthographic"))
     frame_all: bool = _view(False, "", "shows all balls. By default far balls, up to 0.5% but at least one, are left out with a note "
                             "if the other balls then appear 4 times as large")
-    camera: Any = _view(None, "FILE", "scene file, or its part camera, in the units of the data, instead of view and projection; in "
+    camera: Any = _view(None, "FILE", "scene file, or its camera alone, in the units of the data, instead of view and projection; in "
                         "Python also a Camera")
 
-    style: str = _look("auto", "", "look; auto is molecule, protein, crystal, particles, point-cloud or galaxy, after the data. "
-                       "particles and matte are the plain look, ambient-occlusion has only light from all sides, soft also outlines, "
-                       "illustrative flat colors and outlines that are wider at larger steps, cover gloss, a floor and a lens. A style "
-                       "sets only options that are not given", choices=("auto", *STYLES))
+    style: str = _look("auto", "", "look; auto chooses molecule, protein, crystal, particles, point-cloud or galaxy by the data. "
+                       "particles and matte are the plain look; ambient-occlusion has even light from all sides; soft adds outlines to it; "
+                       "illustrative has flat colors, and outlines that are wider at larger steps of depth; cover has gloss, a floor and a "
+                       "lens. A style sets only options that are not given", choices=("auto", *STYLES))
     material: Material | None = _python(None, "", "material of the particles, instead of the style's; colors multiply its diffuse")
     outlines: bool = _look(False, "", "dark lines around the balls; with opacity around those that are at least half opaque")
     depth_cue: float = _look(0.0, "SHARE", "by how much the farthest balls fade to the background, from 0 to 1", read=_share,
@@ -178,8 +179,8 @@ class Options:
                                    read=_stops, rule=(lambda stops: -64.0 <= stops <= 64.0, "from -64 to 64"))
 
     samples: int | None = _samples(None, "N", "samples of a pixel. Default: as many as make the noise of the particles "
-                                   "invisible, 1.5 steps of 255 in 2x2 pixels, at most 256; at most 65536 with an error, 128 to "
-                                   "denoise, 8 for a draft",
+                                   "invisible (1.5 steps of 255 in the mean of 2x2 pixels), up to 256; up to 65536 with an error; 128 "
+                                   "with denoise; 8 for a draft",
                                    flag="--spp", read=int,
                                    rule=(lambda count: 1 <= count < 2**32, "at least 1 and below 2^32"))
     error: float | None = _samples(None, "E", "stops when the image's relative error is at most this: 0.02 or, on the command "
@@ -203,7 +204,7 @@ class Options:
             holds, words = known.get("rule", (None, ""))
             if holds and value is not None and not holds(value):
                 raise ValueError(f"{each.name} = {value}: must be {words}")
-        self._models  # checks it
+        self._models  # raises ValueError for a wrong model
         if not isinstance(self.camera, (Camera, type(None))):
             object.__setattr__(self, "camera", _read_camera(self.camera))
         if self.pixel_width and self.size:

@@ -30,8 +30,8 @@ INK: Final = 0.2  # fraction of a shape's color in its outline, in the illustrat
 
 @dataclass(frozen=True)
 class Shares:
-    """Values of each pixel from first hits: coverage by shapes and outlines, mean depth of the shapes, and how far they fade. `flat`
-    has colors without light; None: all pixels keep their light."""
+    """Values of each pixel from first hits: coverage by shapes and outlines, the shapes' mean depth, and the fraction by which they fade.
+    `flat` has unlit colors."""
 
     shapes: Doubles
     outlines: Doubles
@@ -47,8 +47,8 @@ class Overlaid:
 
     first    index of the first particle among all spheres and capsules
     count    number of particles, bonds, vectors and edges of the cell, in this order
-    radii    shape (n,), without edges of the cell, which have no outlines
-    steps    whether outlines are drawn only at larger steps of depth and between groups
+    radii    of shapes with outlines: all except edges of the cell
+    steps    draws outlines only at larger steps of depth and between groups
     groups   shape (n, 2): chain and residue
     """
 
@@ -62,7 +62,6 @@ class Overlaid:
 
 
 def line_width(size: tuple[int, int]) -> float:
-    """0.0016 of the picture's longer side, at least one pixel."""
     return max(1.0, 0.0016 * max(size))
 
 
@@ -122,7 +121,7 @@ def pixels_per_length(camera: Camera, height: int, depths: Any) -> Any:
 
 
 def _outlines(index: Array, depths: Array, overlaid: Overlaid, pixels: Any, width: float) -> Array:
-    """A ball has an outline if another shape, or a ball that is farther by a tenth of its radius, is behind it."""
+    """A ball has an outline beside pixels without shapes, and beside shapes that are farther by a tenth of its radius."""
     has_outline, is_shape = index < len(overlaid.radii), index < overlaid.count
     radii = overlaid.radii[np.where(has_outline, index, 0) if overlaid.radii.strides[0] else np.zeros_like(index)]
     large = has_outline & (radii * pixels >= LEAST_RADIUS * width)

@@ -20,7 +20,7 @@ Array = npt.NDArray[Any]
 class Bonds:
     """Bonds that the data state, each once.
 
-    pairs        shape (k, 2): indices of the particles
+    pairs        shape (k, 2): indices
     images       shape (k, 3): the second particle moves by images @ cell.vectors; None: to its nearest image
     is_complete  whether the data state all bonds
     """
@@ -37,7 +37,7 @@ class Bonds:
         return Bonds(rows, images, is_complete)
 
     def among(self, rows: Array, count: int) -> Bonds:
-        """`rows` are old indices in the new order. `count` is the number of all particles."""
+        """`rows` are old indices in the new order; `count` is the old number of particles."""
         new = np.full(count, -1, np.intp)
         new[rows] = np.arange(len(rows))
         pairs = new[self.pairs]
@@ -56,8 +56,7 @@ class Particles:
     radii      shape (n,): a column "radius", or half a column "diameter"
     colors     shape (n, 3) or (n, 4): sRGB, floats in [0, 1], uint8 or uint16
     bonds      None if unknown
-    name       name of the data in messages
-    notes      warnings for the user
+    name       name in messages
     """
 
     positions: Array
@@ -109,12 +108,11 @@ class Particles:
 
 @dataclass
 class Table:
-    """Contents of a file or an object, before columns have a meaning.
+    """Contents of a file or an object, before columns are interpreted.
 
-    columns   arrays of one or two dimensions; one column may hold positions of two or three components
-    is_text   whether numbers come from text; then their type does not determine the scale of colors
+    columns   arrays of one or two dimensions; one may have positions of two or three components
+    is_text   numbers come from text, so their type does not determine the scale of colors
     elements  atomic numbers, 0 if unknown; None: columns may have them
-    types     labels that are not elements
     rows      indices of the file's atoms in this table; None: all
     sites     number of atoms in the file
     """

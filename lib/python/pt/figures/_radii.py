@@ -22,7 +22,7 @@ MOST_PAIRS: Final = 4_000_000
 TABLE_BITS: Final = 20
 COVER: Final = 0.01  # least fraction of the picture that balls of unknown radii cover; by taste
 THIN: Final = 0.001  # least radius of these balls, relative to the picture's side
-SLACK: Final = 0.225  # angstroms; bonds are longer than two covalent radii by at most twice this
+SLACK: Final = 0.225  # angstroms; a bond exceeds two covalent radii by at most twice this
 MOST_FACTOR: Final = 3.0  # largest factor of covalent radii, so that balls of dilute gases stay apart; by taste
 STEPS: Final = np.indices((3, 3, 3)).reshape(3, 1, 27) - 1
 
@@ -132,8 +132,8 @@ def _automatic(particles: Particles, notes: list[str]) -> Array:
 
 
 def covalent_factor(particles: Particles) -> float | None:
-    """Returns a factor for covalent radii: 1 for bonded neighbours, more for noble gases and C-alphas. None without elements, or if
-    distances are not in angstroms."""
+    """Returns a factor for covalent radii: 1 for bonded neighbours, more for noble gases and C-alphas. Returns None if distances are not in
+    angstroms."""
     if particles.elements is None:
         return None
     radii = elements.COVALENT_RADII[np.unique(particles.elements)]
@@ -158,7 +158,7 @@ def _seen(typical: float, positions: Array, notes: list[str]) -> float:
     if math.pi * len(positions) * typical * typical >= COVER * span * span:
         return typical
     radius = max(span * math.sqrt(COVER / (math.pi * len(positions))), THIN * span, typical)
-    notes.append(f"the radius is {radius:.3g}: balls that touch their neighbours, of {typical:.3g}, would hardly be seen")
+    notes.append(f"the radius is {radius:.3g}: balls of {typical:.3g}, which would touch their neighbours, would hardly be seen")
     return radius
 
 
@@ -182,14 +182,14 @@ def _of_types(particles: Particles, radii: Mapping[str, float]) -> Array:
     names, codes = elements.categories(column(particles, "type" if particles.elements is None else "element"))
     missing = [name for name in names if name not in radii]
     if missing:
-        raise ValueError(f"radius: the type {missing[0]} is none of those with a radius, {', '.join(radii)}")
+        raise ValueError(f"radius: the type {missing[0]} has no radius, unlike {', '.join(radii)}")
     each: Array = np.array([radii[name] for name in names], np.float32)[codes]
     return each
 
 
 def typical_radius(positions: Array) -> float:
-    """Half of the median distance to the nearest neighbour, so most balls just touch. For random points it is half of the median distance
-    to the fourth neighbour. Neighbours at the same place do not count."""
+    """Returns half of the median distance to the nearest neighbour or, for random points, to the fourth. Neighbours at the same place do
+    not count."""
     first, fourth = _neighbour_distances(positions)
     if not len(first):
         return 1.0
@@ -236,8 +236,7 @@ def _neighbour_distances(positions: Array) -> tuple[Array, Array]:
 
 
 def _near(positions: Array, places: Doubles, low: Doubles, side: float) -> tuple[Doubles, Array, Array]:
-    """Returns the positions in and around the cells of `places`, ordered by cell. For each place, also returns where its 27 cells begin and
-    end."""
+    """Returns the positions in and around the cells of `places`, ordered by cell, and for each place where its 27 cells begin and end."""
     keys = _keys(_cells(places, low, side)[:, :, None] + STEPS)
     wanted = np.zeros(1 << TABLE_BITS, bool)
     wanted[keys] = True

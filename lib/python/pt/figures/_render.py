@@ -16,13 +16,11 @@ def render(positions: npt.ArrayLike, radii: npt.ArrayLike, colors: npt.ArrayLike
            camera: Camera | None = None, up: Direction = "z", floor: bool = False, material: Material | None = None,
            max_path_length: int = 4, denoise: bool = False, seed: int = 0, device: str | None = None,
            context: Context | None = None, progress: Progress | None = None) -> Figure:
-    """Renders spheres from arrays, with the parameters of figure() but a faster start: 640 x 480 pixels, 16 samples.
+    """Renders spheres from arrays. Other parameters are as in figure(), with 640 x 480 pixels and 16 samples by default.
 
     positions   shape (n, 3), n >= 1
     radii       shape (n,), or one number for all; > 0
     colors      shape (n, 3) or (3,), sRGB, floats in [0, 1] or uint8, times the material's diffuse; None: grey
-
-    Arrays are read in place if SphereArray allows.
     """
     centers = real_column("positions", positions, 3, None)
     if not len(centers):

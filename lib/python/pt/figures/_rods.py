@@ -21,8 +21,8 @@ WIDTH: Final = 0.3
 class Rods:
     """k capsules, each with the color of a particle.
 
-    atoms    shape (k,): indices of these particles
-    others   shape (k,): second particles, which must also be shown
+    atoms    indices of these particles
+    others   indices of second particles, which must also be shown
     ways     shape (k, 3): from one end to the other
     starts   shape (k, 3): from the particle's center to the first end; None: 0
     """
@@ -48,7 +48,7 @@ def vectors_of(particles: Particles, given: Vectors, scale: float | None, radii:
     if isinstance(given, str):
         names = components(particles, given)
         if len(names) != 3:
-            raise ValueError(f"vectors = {given!r}: must be three columns like vx,vy,vz, or what stands for them, like v")
+            raise ValueError(f"vectors = {given!r}: must be three columns like vx,vy,vz, or their common name, like v")
         vectors = np.stack([column(particles, name) for name in names], axis=-1)
     else:
         vectors = np.asarray(given)
@@ -65,7 +65,7 @@ def vectors_of(particles: Particles, given: Vectors, scale: float | None, radii:
 
 
 def cell_corners(cell: Cell) -> Doubles:
-    """Shape (2^k, 3) for k edges. Bit i of a corner's index selects the end of edge i."""
+    """Bit i of a corner's index selects the end of edge i."""
     vectors = cell.vectors[cell.vectors.any(axis=1)]
     edges = np.arange(len(vectors))
     corners: Doubles = cell.origin + (np.arange(2**len(vectors))[:, None] >> edges & 1) @ vectors

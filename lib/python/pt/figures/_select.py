@@ -38,18 +38,17 @@ def column(particles: Particles, name: str) -> Array:
 
 
 def chosen(particles: Particles, text: str, option: str = "where") -> Mask:
-    """The particles that a text like "resname XK2 or within 5 of (chain A and z > 3)" selects. Raises ValueError, with the word and its
-    position from 1."""
+    """`text` is like "resname XK2 or within 5 of (chain A and z > 3)". Raises ValueError, with the word and its position from 1."""
     return _Reader(particles, text, option).all()
 
 
 def is_selection(text: str) -> bool:
-    """Otherwise a name of a type or of an element."""
+    """Other texts are names of types or elements."""
     return bool(re.search(r"[\s()<>]", text.strip())) or text.strip() in (*RESIDUES, "all")
 
 
 def rules(option: str, given: Any) -> tuple[Any, dict[str, Any], dict[str, Any]]:
-    """Splits a mapping, or "BASE,O=1,chain A=2", into the base (None without), values of types, and values of selections."""
+    """Splits a mapping, or "BASE,O=1,chain A=2", into the base or None, values of types, and values of selections."""
     base, pairs = None, given
     if not isinstance(given, Mapping):
         parts = given.split(",")
@@ -176,7 +175,7 @@ class _Reader:
         return result
 
     def named(self) -> tuple[Array, str]:
-        """A column's name may have blanks before a comparison."""
+        """A column's name may contain blanks if a comparison follows."""
         start = self.at
         ends = [k for k in range(start + 1, min(start + 6, len(self.words))) if self.words[k][0] in COMPARISONS]
         if ends and start < len(self.words):

@@ -20,7 +20,7 @@ from pt.figures._styles import styled
 
 
 def frames(read: Callable[[], Iterator[Particles]], options: Options, trails: int = 0) -> Iterator[Staged]:
-    """Reads all frames twice, first to choose one view and scale for all. `trails` is the number of earlier frames in a trail."""
+    """Reads all frames twice, first to choose one view and scale. `trails` is the number of earlier frames in a trail."""
     options, view, reaches, scale = _common(read(), options)
     layout = Layout.of(view, reaches, options.style, options.floor)
     past: deque[Particles] = deque(maxlen=trails)

@@ -7,7 +7,7 @@ from typing import Final
 from pt._fit import Doubles
 from pt._scene import Material, Plane, Sphere
 
-# A surface that faces the key lamp, in full view of the surround, has its albedo as the radiance, as in the legend.
+# Lit surfaces have a radiance near their albedo, so their colors match the legend.
 SURROUND_BRIGHTNESS: Final = 0.4375
 KEY_BRIGHTNESS: Final = 0.75
 KEY_HALF_ANGLE: Final = math.radians(14.0)
@@ -37,7 +37,7 @@ def material_of(style: str) -> Material:
 
 
 def make_stage(style: str, axes: Doubles, distance: float, center: Doubles, radius: float, floor: Plane | None) -> Stage:
-    """`axes` are right, up, forward. `distance` goes from camera to middle. `center` and `radius` give a ball around everything."""
+    """`axes` are right, up, forward. `distance` goes from the camera to `center`, the center of a ball around everything."""
     material = material_of(style)
     # The key lamp is farther than the camera, so its light hardly falls off over the data.
     far = max(20.0 * radius, 4.0 * distance)

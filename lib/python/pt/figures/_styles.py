@@ -1,4 +1,4 @@
-"""Looks by kind of data. A style gives values to options that have their defaults."""
+"""Looks by kind of data. A style sets options that have their defaults."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ MOST_ATOMS: Final = 500  # in a molecule or crystal that is drawn with bonds; by
 LEAST_POLYMER: Final = 20  # atoms
 LEAST_POINTS: Final = 1000
 SPACE: Final = 60.0  # most cubic angstroms per atom in a crystal's cell
-WALL: Final = 1e-3  # distance from a wall, as a share of the edge, at which an atom is also drawn at the opposite wall
+WALL: Final = 1e-3  # atoms this near to a wall, relative to the edge, are also drawn at the opposite wall
 STARS: Final = ("age", "stellar_age", "metallicity", "formation_time")
 
 VALUES: Final[dict[str, dict[str, Any]]] = {
@@ -39,7 +39,6 @@ WORDS: Final = {"molecule": "balls and sticks", "protein": "chains by color, no 
 
 
 def styled(particles: Particles, options: Options, notes: list[str]) -> Options:
-    """Replaces style auto, and sets the values of the style."""
     style, kind = options.style, options.style
     if style in ("auto", *LOOKS):
         kind = kind_of(particles, options)
@@ -85,7 +84,7 @@ def kind_of(particles: Particles, options: Options) -> str:
 
 
 def completed(particles: Particles, options: Options) -> Particles:
-    """Adds atoms at the opposite walls, so that a crystal's cell has all of its corners. The copies are bonded by distance."""
+    """Adds atoms at opposite walls, so that a crystal's cell has all corners. The copies are bonded by distance."""
     cell = particles.cell
     if cell is None or has_arrays(options):
         return particles
@@ -111,12 +110,12 @@ def has_arrays(options: Options) -> bool:
 
 
 def repeated(particles: Particles, counts: tuple[int, int, int], options: Options) -> Particles:
-    """The cell's copies along its edges, which are bonded by distance."""
+    """Repeats the cell along its edges. Particles of all copies are bonded by distance."""
     cell = particles.cell
     if cell is None:
         raise ValueError(f"repeat: {particles.name} has no cell")
     if has_arrays(options):
-        raise ValueError("repeat: color, radius, opacity, vectors and bonds must be no arrays")
+        raise ValueError("repeat: color, radius, opacity, vectors and bonds must not be arrays")
     steps = np.array(list(np.ndindex(*counts)), np.float64)
     rows = np.tile(np.arange(len(particles)), len(steps))
     result = replace(particles, bonds=None).select(rows)
@@ -126,7 +125,7 @@ def repeated(particles: Particles, counts: tuple[int, int, int], options: Option
 
 
 def groups_of(particles: Particles) -> Array | None:
-    """Numbers of chain and residue, shape (n, 2); None if the data have no chains."""
+    """Returns chain and residue, shape (n, 2), or None if the data have no chains."""
     if "chain" not in particles.columns:
         return None
     _, chains = np.unique(particles.columns["chain"].astype(str), return_inverse=True)

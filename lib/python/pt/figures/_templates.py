@@ -58,7 +58,7 @@ def residues_of(particles: Particles) -> Array:
 
 
 def agreeing(particles: Particles, first: Array, second: Array, squares: Array) -> Array:
-    """Keeps near pairs whose atom names mean a bond, and all pairs of unknown residues."""
+    """Masks pairs whose atom names mean a bond, and all pairs of unknown residues."""
     names = np.char.replace(np.char.upper(particles.columns["name"].astype(str)), "*", "'")
     words, codes = np.unique(names, return_inverse=True)
     known, residues = known_residues(particles), residues_of(particles)

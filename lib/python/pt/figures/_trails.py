@@ -14,7 +14,7 @@ WIDTH: Final = 0.2  # radius of trails, in median radii of particles; by taste
 
 
 def trails_of(particles: Particles, past: Sequence[Particles], radii: Array) -> Rods:
-    """`past` begins with the latest frame. Steps of more than half of a periodic cell cross its walls and are left out."""
+    """`past` begins with the latest frame. Steps longer than half of a periodic cell cross its walls and are left out."""
     positions = particles.positions.astype(np.float64)
     newer, known = positions, np.ones(len(positions), bool)
     atoms, starts, ways = [], [], []

@@ -17,7 +17,7 @@ _CARBON: Final = (0, 6)
 
 
 def trace_of(particles: Particles) -> Array:
-    """Mask of the atoms that a tube goes through: CA of amino acids, P of nucleotides."""
+    """Masks the atoms on a tube's axis: CA of amino acids, P of nucleotides."""
     if "name" not in particles.columns:
         return np.zeros(len(particles), bool)
     names = particles.columns["name"].astype(str)
@@ -31,7 +31,7 @@ def trace_of(particles: Particles) -> Array:
 
 
 def tubes_of(particles: Particles, trace: Array, radius: float | None) -> Rods:
-    """Capsules along Catmull-Rom curves through the atoms of a trace, in their order, by chain. Each has the color of the nearest atom."""
+    """Each chain's capsules follow a Catmull-Rom curve through the atoms of `trace`. Each has the color of the nearest atom."""
     rows = np.flatnonzero(trace)
     places = particles.positions[rows].astype(np.float64)
     steps = np.linalg.norm(np.diff(places, axis=0), axis=1)

@@ -44,7 +44,7 @@ def up_vector(up: Direction) -> Doubles:
 
 @dataclass(frozen=True)
 class Compass:
-    """Right is x, or y if up is nearest to x. Front is right x up: -y if z is up, and z if y is up, as in simulations and for molecules."""
+    """Right is x, or y if up is nearest to x. Front is right x up: -y if z is up, as in simulations, and z if y is up, as for molecules."""
 
     right: Doubles
     front: Doubles
@@ -58,14 +58,13 @@ class Compass:
 
 
 def relative_height(extents: Doubles) -> float:
-    """The size of data along up, relative to the size across: 0 for a layer, 1 for a cube. `extents` of the centers go along right, front
-    and up."""
+    """Returns the size along up, relative to the size across: 0 for a layer, 1 for a cube. `extents` are along right, front and up."""
     across = math.hypot(extents[0], extents[1])
     return float(extents[2] / (across / math.sqrt(2.0))) if across > 0.0 else 1.0
 
 
 def toward_camera(view: Direction, compass: Compass, height: float) -> Doubles:
-    """`height` is the result of relative_height(). Only the three-quarter view uses it."""
+    """Only the three-quarter view uses `height`, the result of relative_height()."""
     if view == "three-quarter":
         if height == 0.0:
             return compass.up
@@ -83,7 +82,7 @@ def toward_camera(view: Direction, compass: Compass, height: float) -> Doubles:
 
 
 def view_axes(toward: Doubles, compass: Compass) -> Doubles:
-    """Rows are right, up and forward, with right x up = -forward. If the view is along up, right comes from the compass."""
+    """Rows are right, up and forward. If the view is along up, right comes from the compass."""
     forward = -toward
     across = np.cross(forward, compass.up)
     right = compass.right if np.linalg.norm(across) < 1e-6 else unit(across)
@@ -91,7 +90,7 @@ def view_axes(toward: Doubles, compass: Compass) -> Doubles:
 
 
 def principal_axes(centers: Array, compass: Compass) -> Doubles:
-    """Like view_axes(). The longest axis is right. The second one is up, on the side of the data's up. The shortest axis is toward the
+    """Like view_axes(). The longest axis is right. The second one is up, on the side of the data's up. The shortest one is toward the
     camera, on the side of the three-quarter view."""
     sample = centers[::max(len(centers) // SAMPLE, 1)].astype(np.float64)
     spread = sample - sample.mean(axis=0)

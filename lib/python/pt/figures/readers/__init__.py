@@ -43,12 +43,12 @@ FORMATS: Final[dict[str, Callable[[Lines], Frames]]] = {
     "pdbqt": lambda lines: read_pdb(lines, True), "cif": read_cif,
     **{format: _molecules(format) for format in MOLECULES}, "poscar": _one(read_poscar), "xsf": read_xsf,
     "npy": read_npy, "npz": read_npz, "ply": _one(read_ply), "pcd": _one(read_pcd)}
-"""Readers of lines or bytes. Files may be packed, or standard input. "table" and "lammps-data" are such formats, too."""
+"""Readers of lines or bytes, also for "table" and "lammps-data". Files may be packed, or standard input."""
 
 OTHERS: Final[dict[str, Callable[[str], Frames]]] = {
     "gsd": read_gsd, "ase": _other.read_ase, "mdanalysis": _other.read_mdanalysis, "pyvista": _other.read_pyvista,
     "trimesh": _other.read_trimesh, "laspy": _other.read_laspy}
-"""Readers of files by name. Keys are formats, or packages that read several formats."""
+"""Readers that need a path. Keys are formats, or packages that read several formats."""
 
 _FIRST_BYTES: Final = ((b"\x93NUMPY", "npy"), (b"PK\3\4", "npz"), (b"PK\5\6", "npz"), (b"ply\n", "ply"), (b"ply\r", "ply"),
                        (b"ITEM: ", "lammps"), (b"# .PCD", "pcd"), (b"VERSION ", "pcd"), (b"# vtk", "pyvista"),

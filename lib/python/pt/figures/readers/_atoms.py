@@ -19,9 +19,9 @@ def atoms_table(positions: Array, columns: dict[str, Array], elements: Array | N
                 bonds: Bonds | None = None, notes: list[str] | None = None, kept: Array | None = None) -> Table:
     """Returns a table without virtual sites.
 
-    columns   with "name" (atoms) and "resname" (residues), if the file has them
+    columns   with names of atoms ("name") and residues ("resname"), if the file has them
     elements  atomic numbers, VIRTUAL for sites that are not atoms, 0 where names decide; None: names decide all
-    kept      mask of the atoms to draw; None: all
+    kept      masks atoms to draw; None: all
     """
     notes = notes or []
     count = len(positions)

@@ -17,10 +17,10 @@ from pt.figures.readers._lines import Lines
 from pt.figures.readers._other import tried
 from pt.figures.readers._structures import divide_chains, frames_of
 
-SHARED: Final = 0.4  # angstroms; closer sites share one position
+SHARED: Final = 0.4  # angstroms; closer sites are alternatives for one place
 
 WHOLE: Final = 0.99
-ROUNDED: Final = 1e-4  # fraction of an edge: coordinates this little below 0 are not wrapped
+ROUNDED: Final = 1e-4  # coordinates this little below 0, relative to the edge, are not wrapped
 
 
 def read_cif(lines: Lines) -> Listed:
@@ -45,7 +45,7 @@ def read_cif(lines: Lines) -> Listed:
         structure = tried(lines.name, "gemmi", lambda: gemmi.make_small_structure_from_block(blocks[index]))
         table = _table(lines.name, structure)
         if len(blocks) > 1:
-            table.notes.append(f"structure {index} of {len(blocks)} is shown, {names[index]}: frame takes another of "
+            table.notes.append(f"structure {index} of {len(blocks)} is shown, {names[index]}: frame chooses another of "
                                f"{listed(names)}")
         return table
 
@@ -69,7 +69,7 @@ def _table(name: str, structure: Any) -> Table:
     if hidden := sorted({site.label for site in sites} - {sites[row].label for row in kept}):
         notes.append(f"sites that share a place with another one of no lower occupancy are not drawn: {listed(hidden)}")
     if partly := int((occupancy[kept] < WHOLE).sum()):
-        notes.append(f"{partly:,} sites are occupied in part, and drawn as if always")
+        notes.append(f"{partly:,} partly occupied sites are drawn like full ones")
     elements = np.array([sites[row].element.atomic_number for row in kept], np.uint8)
     columns = {"name": np.array([sites[row].label for row in kept], str), "occupancy": occupancy[kept]}
     return atoms_table(shares[kept] @ cell.vectors, columns, elements, cell, notes=notes)

@@ -8,13 +8,13 @@ from typing import Any, Final
 import numpy as np
 import numpy.typing as npt
 
-_CONTROL: Final = 8  # byte offset of 20 numbers, after a marker and CORD
+_CONTROL: Final = 8  # byte offset of 20 numbers
 _TITLE: Final = 92
 _LENGTHS: Final = (0, 2, 5)
 
 
 def frames_without_cell(path: str) -> npt.NDArray[Any] | None:
-    """Returns records with fields x, y and z. None if frames have a cell, or another layout."""
+    """Returns records with fields x, y and z, or None if frames have a cell or another layout."""
     size = os.path.getsize(path)
     with open(path, "rb") as file:
         start = file.read(_TITLE + 4)

@@ -30,7 +30,7 @@ class DumpYaml(LammpsDump):
                 bounds.append(self._bounds(line))
             elif key == "data":
                 if count is None or not names:
-                    raise lines.refuse("data: natoms and keywords must come before")
+                    raise lines.refuse("data: natoms and keywords must come before it")
                 self._names = names
                 self._cell = self._cell_of(bounds, periodic)
                 return count

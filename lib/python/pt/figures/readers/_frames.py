@@ -9,10 +9,10 @@ from pt.figures.readers._lines import Lines
 
 
 class Frames(Protocol):
-    """Only frames with particles count.
+    """Frames of a source, without those that have no particles.
 
     current  index of the default frame; None: the last
-    models   numbers of a structure's models; None if frames are not models
+    models   model numbers of a structure; None if frames are not models
     """
 
     name: str
@@ -25,7 +25,7 @@ class Frames(Protocol):
         """Reads a file only as far as necessary. `index` is >= 0."""
 
     def read(self, index: int) -> Table:
-        """index: in [0, count())."""
+        """`index` is in [0, count())."""
 
 
 class Listed:
@@ -49,10 +49,7 @@ def one_frame(name: str, read: Callable[[], Table]) -> Listed:
 
 
 class TextFrames:
-    """A format whose frames have a header with the number of particles.
-
-    lines_after  number of lines after the particles of a frame
-    """
+    """A format whose frames have a header with the number of particles, and `lines_after` lines after the particles."""
 
     lines_after = 0
 

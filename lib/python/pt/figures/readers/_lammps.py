@@ -36,7 +36,7 @@ class LammpsDump(TextFrames):
                 continue
             is_first = False
             if not line.startswith("ITEM: "):
-                raise lines.refuse(f"{shown(line)}: must begin with ITEM:, which a new frame does: are there more lines "
+                raise lines.refuse(f"{shown(line)}: must begin with ITEM:, like every frame: are there more lines "
                                    "than particles, or is one a comment?")
             item = line.removeprefix("ITEM: ").strip()
             if item == "NUMBER OF ATOMS":
@@ -56,7 +56,7 @@ class LammpsDump(TextFrames):
                     raise lines.refuse(f"{shown(line)}: must have the names of columns, each once")
                 return count
             else:
-                raise lines.refuse(f"{shown(line)}: is none of a dump of atoms, which has positions")
+                raise lines.refuse(f"{shown(line)}: is not part of a dump of atoms with positions")
         if is_first:
             return None
         raise lines.refuse(HEAD_ENDS)

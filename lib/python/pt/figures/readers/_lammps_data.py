@@ -154,7 +154,7 @@ class LammpsData:
                 choices = ()
         if not choices:
             raise DataError(f"{self.lines.name}:{self.lines.number + 1}: the atom style is not known: {width} columns, like "
-                            f"{shown(' '.join(some[0]))}, and no hint after Atoms: atom_style says it")
+                            f"{shown(' '.join(some[0]))}, and no hint after Atoms: atom_style can give it")
         self.style = choices[0]
         self.notes.append(f"the atom style is taken to be {self.style}, by the columns")
         return self.style
@@ -188,7 +188,7 @@ class LammpsData:
         if not numbers.any():
             return None
         said = [f"{name} is {SYMBOLS[each]}" for name, each in zip(names, numbers.tolist()) if each]
-        self.notes.append(f"elements are those of the masses: type {listed(said, 8)}")
+        self.notes.append(f"elements follow from masses: type {listed(said, 8)}")
         if unknown := [f"{name} ({mass:g})" for name, each, mass in zip(names, numbers, masses) if not each]:
             self.notes.append(f"no elements: types {listed(unknown)}, by their masses; a ball of mean size stands for each")
         elements: Array = numbers[codes.reshape(-1)]
@@ -198,7 +198,7 @@ class LammpsData:
         if not self.counts.get("bonds"):
             return None
         if not self.bonds:
-            self.notes.append(f"the header has {self.counts['bonds']:,} bonds, and there is no section Bonds")
+            self.notes.append(f"the header has {self.counts['bonds']:,} bonds, but there is no section Bonds")
             return None
         return Bonds.of(np.stack([self._atoms_of("Bonds", self.bonds[end], ids) for end in ("first", "second")], axis=1))
 

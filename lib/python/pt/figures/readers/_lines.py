@@ -33,7 +33,7 @@ _UNPACK: Final[dict[bytes, Callable[[IO[bytes]], Any]]] = {
 
 
 class Lines:
-    """An unpacked file. number: the last line read."""
+    """A file, unpacked while it is read. `number` is the number of the last line read."""
 
     def __init__(self, path: str) -> None:
         self.path = path
@@ -130,7 +130,7 @@ class Lines:
         return b"".join(blocks)
 
     def block(self, most: int = sys.maxsize) -> tuple[bytes, int]:
-        """Returns up to `most` whole lines from the buffer, and their number, which is 0 at the end."""
+        """Returns up to `most` whole lines from the buffer, and their count, which is 0 at the end."""
         if len(self._buffer) - self._next < BLOCK_BYTES:
             self._fill()
         while (end := self._buffer.rfind(b"\n", self._next) + 1) == 0 and self._fill():
@@ -153,7 +153,7 @@ class Lines:
         return self.byte, self.number
 
     def go_to(self, place: tuple[int, int]) -> None:
-        """Going back in a packed file means unpacking it again."""
+        """Going back in a packed file unpacks it again."""
         byte, number = place
         if byte != self.byte:
             if self.is_packed:
@@ -195,6 +195,6 @@ def _after_lines(data: bytes, start: int, end: int, most: int) -> tuple[int, int
 
 
 def ending(path: str) -> str:
-    """The lower-case ending, without a packer's ending such as .gz."""
+    """In lower case, without a packer's ending such as .gz."""
     name = Path(path.lower())
     return Path(name.stem).suffix if name.suffix in PACKED_ENDINGS else name.suffix

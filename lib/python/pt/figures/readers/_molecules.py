@@ -40,7 +40,7 @@ def read_molecules(lines: Lines, format: str) -> Listed:
         frame = tried(lines.name, "chemfiles", lambda: file.read_step(index))
         table = _molecule(frame)
         if count > 1:
-            table.notes.append(f"molecule {index} of {count:,} is shown: frame takes another, from 0")
+            table.notes.append(f"molecule {index} of {count:,} is shown: frame chooses another, from 0")
         return table
 
     return Listed(lines.name, count, read, current=0)

@@ -77,7 +77,7 @@ def text_columns(lines: Lines, kinds: Mapping[str, str], count: int, notes: list
     for name, values in columns.items():
         kind = np.dtype(kinds[name])
         if kind.kind in "iu" and len(values) and not np.iinfo(kind).min <= values.min() <= values.max() <= np.iinfo(kind).max:
-            raise lines.refuse(f"{name} goes from {values.min():g} to {values.max():g}: its type is {kind}")
+            raise lines.refuse(f"{name} goes from {values.min():g} to {values.max():g}: must fit its type, {kind}")
         with np.errstate(over="ignore"):
             columns[name] = values.astype(kind)
     return columns
@@ -103,7 +103,7 @@ def _by_value(lines: Lines, element: _Element, order: str) -> dict[str, Array]:
         data = lines.take(size) if order else b""
         if len(data) < size if order else len(words) < count:
             raise lines.refuse(f"{f'byte {lines.byte:,}: ' if order else ''}the file ends within element {element.name}, or a "
-                               "list has fewer values than it says")
+                               "list has fewer values than it states")
         taken = np.frombuffer(data, order + kind) if order else np.array(words[:count]).astype(kind)
         del words[:count]
         return taken

@@ -18,7 +18,7 @@ from pt.figures.readers._lines import Lines
 
 Array = npt.NDArray[Any]
 
-_TABLE: Final = ""  # key of positions that are stored as one table of three columns
+_TABLE: Final = ""  # key of positions stored as one table of three columns
 FEW_BYTES: Final = 1 << 16
 MISSING: Final = ("", "nan", "NaN", "NAN", "-nan", "NA", "N/A", "n/a", "null", "None", "-")
 _WHOLE: Final = re.compile(r"[+-]?\d+")
@@ -33,9 +33,9 @@ class Layout:
     separator  "" for blanks
     decimal    decimal mark
     least      least number of fields in a row; fields without a name are ignored
-    is_table   whether the number of rows is unknown; blank lines and comments (#) are then skipped, and columns except
+    is_table   whether the number of rows is unknown. Blank lines and comments (#) are then skipped, and columns except
                positions may mix numbers and words
-    rows       name of the rows in messages
+    rows       name of rows in messages
     """
 
     names: list[str]
@@ -48,7 +48,7 @@ class Layout:
 
 
 def number(text: str, decimal: str = ".") -> float:
-    """Also reads exponents of Fortran (1.5D+02) and Mathematica (1.5*^2). A missing value gives NaN. Raises ValueError."""
+    """Also reads exponents of Fortran (1.5D+02) and Mathematica (1.5*^2). A missing value is NaN. Raises ValueError."""
     if text in MISSING:
         return np.nan
     if "_" in text:
@@ -133,7 +133,7 @@ class Rows:
         return result
 
     def _find_words(self, data: bytes) -> None:
-        """A column has words if its first field is not a number, unless it is a position."""
+        """A column has words if its first field is no number and the column has no positions."""
         layout = self.layout
         lines = (line.decode("utf-8", "replace") for line in io.BytesIO(data))
         first = next((line for line in lines if line.strip() and not (layout.is_table and is_comment(line))), "")
@@ -184,7 +184,7 @@ class Rows:
         return columns if self._has_all_fields(last == "" if last.dtype.kind == "U" else np.isnan(last), data, height) else None
 
     def _has_all_fields(self, is_missing: Array, data: bytes, height: int) -> bool:
-        """Whether all rows have a last field. pandas does not distinguish a missing field from a missing value."""
+        """Whether all rows have a last field, which pandas does not distinguish from a missing value."""
         rows = np.flatnonzero(is_missing)
         if not len(rows) or len(self.layout.names) == 1:
             return True

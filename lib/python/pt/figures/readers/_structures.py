@@ -113,7 +113,7 @@ def frames_of(name: str, structure: Any) -> Listed:
 
 
 def divide_chains(block: Any) -> None:
-    """gemmi searches residues of a chain linearly, so long chains of mmCIF are divided into parts with different names."""
+    """gemmi searches a chain's residues linearly, so long chains of mmCIF are divided into parts with different names."""
     gemmi = module("gemmi", block.name)
     chains = block.find_values("_atom_site.auth_asym_id") or block.find_values("_atom_site.label_asym_id")
     names: dict[str, str] = {}
@@ -126,7 +126,7 @@ def divide_chains(block: Any) -> None:
 
 
 def _named_by_number(structure: Any) -> Array:
-    """A FlatStructure requires short names of chains."""
+    """A FlatStructure requires short chain names."""
     chains = [chain for model in structure for chain in model]
     names = [chain.name.removesuffix(_OTHER_PART) for chain in chains]
     for number, chain in enumerate(chains):
@@ -155,7 +155,7 @@ def _table(structure: Any, flat: Any, chains: Array, rows: slice) -> Table:
     bonds = _bonds(structure, columns, notes)
     kept = _likeliest(columns)
     if not kept.all():
-        notes.append(f"{int((~kept).sum()):,} atoms in alternative places are not drawn: those of the highest occupancy are")
+        notes.append(f"{int((~kept).sum()):,} atoms are not drawn: their alternative places have a higher occupancy")
     return atoms_table(np.ascontiguousarray(positions), {key: np.ascontiguousarray(values) for key, values in columns.items()},
                        elements, _cell(structure, columns["resname"]), bonds, notes, kept)
 
@@ -201,7 +201,7 @@ def _bonds(structure: Any, columns: dict[str, Array], notes: list[str]) -> Bonds
 
 
 def _connections(structure: Any, columns: dict[str, Array]) -> Iterator[tuple[int, int]]:
-    """Reads bonds within the asymmetric unit from struct_conn, or from LINK and SSBOND. Hydrogen bonds are left out."""
+    """Reads bonds within the asymmetric unit, except hydrogen bonds, from struct_conn, or from LINK and SSBOND."""
     gemmi = module("gemmi", structure.name)
     wanted = [each for each in structure.connections
               if each.type != gemmi.ConnectionType.Hydrog and each.asu != gemmi.Asu.Different]
@@ -224,7 +224,7 @@ def _conect(structure: Any, serials: Array, notes: list[str]) -> Iterator[tuple[
     index = dict(zip(numbers[counts == 1].tolist(), rows[counts == 1].tolist()))
     ambiguous = set(numbers[counts > 1].tolist())
     if lost := sum(serial in ambiguous or not ambiguous.isdisjoint(others) for serial, others in table.items()):
-        notes.append(f"{lost:,} lines of CONECT are not used: two atoms have one number")
+        notes.append(f"{lost:,} lines of CONECT are not used: two atoms have the same number")
     for serial, others in table.items():
         for other in others:
             if serial in index and other in index and serial != other:

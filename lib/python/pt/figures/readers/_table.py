@@ -41,12 +41,12 @@ def read_table(lines: Lines, mapping: Mapping[str, str]) -> Table:
 
 
 def _layout(line: str, comment: str, lines: Lines) -> tuple[Layout, bool]:
-    """The first line that is not a comment decides. Also returns whether this line has names."""
+    """The first line that is not a comment determines the layout. Also returns whether this line has names."""
     separator = next((each for each in _SEPARATORS if each in line), "")
     has_comma = separator != "," and re.search(r"\d,\d", line + lines.peek(1000).decode("utf-8", "replace")) is not None
     decimal = "," if has_comma else "."
     if separator == "," and re.fullmatch(r"\s*([-+]?\d+,\d+\s+)+[-+]?\d+,\d+\s*", line):
-        separator, decimal = "", ","  # commas are decimal marks, so blanks separate columns
+        separator, decimal = "", ","  # commas are decimal marks, and blanks separate columns
     try:
         first = fields_of(line, separator)
     except csv.Error:
@@ -72,7 +72,7 @@ def _default_names(first: list[str], decimal: str) -> list[str]:
 
 
 def _with_colors(columns: dict[str, npt.NDArray[Any]], notes: list[str]) -> dict[str, npt.NDArray[Any]]:
-    """Scanners write colors as three last columns of integers from 0 to 255."""
+    """Scanners write colors as the last three columns, integers from 0 to 255."""
     names = list(columns)[-3:]
     last = [columns[name] for name in names]
     if len(columns) < 6 or any(column.dtype.kind != "i" for column in last):
