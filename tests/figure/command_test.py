@@ -137,7 +137,7 @@ class Command(unittest.TestCase):
         (self.folder / "data.png").write_text(WATER)
         for code, words, arguments in (
                 (2, "there is nothing to write", ("water.xyz",)),
-                (2, "must end in .exr, .png, .jpg or .jpeg", ("water.xyz", "-o", "a.bmp")),
+                (2, "must end in .exr, .png, .jpg, .jpeg, .pdf or .svg", ("water.xyz", "-o", "a.bmp")),
                 (2, r"a.WEBM: write pictures by -o a-###.png with .* ffmpeg .* -i a-%03d.png a.WEBM",
                  ("water.xyz", "-o", "a.WEBM")),
                 (2, "a.gif: only with --frames or --turntable", ("water.xyz", "-o", "a.gif")),

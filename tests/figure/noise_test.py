@@ -1,6 +1,5 @@
 import types
 import unittest
-import unittest.mock
 
 import numpy as np
 import pt
@@ -116,12 +115,6 @@ class Pictures(unittest.TestCase):
         found = pt.figure(POSITIONS, radius=0.3, size=(64, 48), samples=16, exposure=None)
         same = pt.figure(POSITIONS, radius=0.3, size=(64, 48), samples=16, exposure=automatic_exposure(found.radiance))
         self.assertEqual(found.noise, same.noise)
-
-    def test_a_draft_says_how_to_denoise(self):
-        with unittest.mock.patch("pt.figures._figure.find_library", return_value=None), unittest.mock.patch(
-                "ctypes.util.find_library", return_value=None):
-            draft = pt.figure(POSITIONS, radius=0.3, size=(32, 24), draft=True)
-        self.assertEqual((draft.sample_count.max(), draft.notes[-1][:43]), (8, "the draft is noisy: Open Image Denoise, by "))
 
 
 if __name__ == "__main__":

@@ -70,11 +70,8 @@ def srgb(name: str, color: Any) -> RGB:
 
 
 def colors_of(particles: Particles, given: Options, notes: list[str]) -> tuple[Bytes, Legend]:
-    color, picks = given.color, dict[str, Any]()
-    if isinstance(color, Mapping) or isinstance(color, str) and "=" in color:
-        base, types, picks = rules("color", color)
-        color = types or base
-    colors, legend = _rest_of_colors(particles, color, given, notes)
+    base, types, picks = rules(given.color)
+    colors, legend = _rest_of_colors(particles, types or base, given, notes)
     if not picks:
         return colors, legend
     colors = np.array(np.broadcast_to(colors, (len(particles), 3)))

@@ -15,12 +15,12 @@ from pt._command_line import (CODE_OF_RESULT, FILES, INTERNAL, SCENE, SIGNAL, TA
                               misnamed, numbered)
 from pt._context import Context
 from pt._errors import Error
-from pt._files import PICTURES
 from pt._text import tell
 from pt.figures._accept import frames as read_frames, load
 from pt.figures._figure import LEGENDS, Figure, Staged
 from pt.figures._movies import MOVIES, check_movie, write_movie
 from pt.figures._options import Options, two
+from pt.figures._picture import PAGES
 from pt.figures._series import frames, turntable
 
 EPILOG = """\
@@ -29,6 +29,7 @@ Pictures of --frames and --turntable share one camera and one scale. # signs in 
   ffmpeg -framerate 25 -i f-%03d.png -pix_fmt yuv420p f.mp4    (after -o f-###.png)
 -o f.gif (by the module Pillow) and -o f.mp4 (by imageio-ffmpeg) hold all pictures of a series.
 """
+PICTURES = ("exr", *PAGES)
 FILMS = (".webm", ".mov", ".avi", ".mkv")
 
 
@@ -53,8 +54,8 @@ def parser() -> argparse.ArgumentParser:
     command.add_argument("data", metavar="DATA", help="file of particles; - is standard input")
     add = command.add_argument_group("output").add_argument
     add("-o", "--output", action="append", default=[], metavar="IMAGE",
-        help="may be repeated: .png and .jpg show the figure, .exr has the linear radiance of its scene; - is standard "
-        "output")
+        help="may be repeated: .png and .jpg show the figure, .pdf and .svg with words and lines as vectors, .exr has the linear "
+        "radiance of its scene; - is standard output")
     add("--format", dest="output_format", choices=PICTURES, help="format of an image on standard output")
     add("--png-bits", type=int, choices=(8, 16), default=8)
     add("--legend", metavar="FILE", help="legend of the colors, as .svg, .pdf or .png")

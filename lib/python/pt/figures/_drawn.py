@@ -14,6 +14,7 @@ from pt.figures._cell import Cell
 from pt.figures._colors import Legend, colors_of
 from pt.figures._framing import drawn_cell, far_away
 from pt.figures._layout import Balls
+from pt.figures._marks import Marks
 from pt.figures._options import Options
 from pt.figures._particles import Particles
 from pt.figures._radii import opacities_of, radii_of
@@ -48,6 +49,7 @@ class Drawn:
     settled: dict[str, float] = field(default_factory=dict)
     opacities: Array | None = None
     groups: Array | None = None
+    marks: Marks = Marks()
 
     @property
     def all_groups(self) -> Array | None:
@@ -113,7 +115,7 @@ def prepare(particles: Particles, options: Options, scale: float | None = None, 
             radii = np.where(trace, radii.dtype.type(rods[-1].radius), radii)
             tubes = tubes & ~trace
     shown = _shown(particles, options, radii, notes, tubes if tubes is not None and tubes.any() else None)
-    positions = particles.positions
+    positions, sizes = particles.positions, radii
     if shown is not None:
         positions = positions[shown]
         radii = radii[shown] if len(radii) > 1 else radii
@@ -126,7 +128,8 @@ def prepare(particles: Particles, options: Options, scale: float | None = None, 
     centers, radii, cell, scale = _in_range(positions, radii, cell, scale)
     return Drawn(centers, np.broadcast_to(radii, len(centers)) if len(radii) == 1 else radii, colors, legend, cell,
                  scale, notes, [each.times(scale, LEAST_LENGTH) for each in rods], settled,
-                 None if opacities is None else np.broadcast_to(opacities, len(centers)), groups)
+                 None if opacities is None else np.broadcast_to(opacities, len(centers)), groups,
+                 Marks.of(particles, options.labels, options.distances, sizes, shown, scale))
 
 
 def _shown(particles: Particles, options: Options, radii: Array, notes: list[str], hidden: Array | None) -> Array | None:

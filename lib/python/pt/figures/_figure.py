@@ -1,6 +1,5 @@
 from __future__ import annotations
 
-import ctypes.util
 import functools
 import inspect
 import math
@@ -13,33 +12,30 @@ import numpy.typing as npt
 
 from pt._camera import RenderSettings
 from pt._context import Context
-from pt._denoise import find_library
-from pt._display import automatic_exposure, encode_png, linear, to_pixels
+from pt._display import automatic_exposure, linear, to_pixels
 from pt._enums import Quantity
 from pt._exr import encode_exr
-from pt._files import PICTURES, Path, format_of, write_atomically
+from pt._files import Path, format_of, write_atomically
 from pt._film import TILE_SIDE
 from pt._fit import Array, Doubles
 from pt._image import Image
 from pt._scene import Scene, SphereArray
 from pt.figures._accept import load
-from pt.figures._colors import Legend, srgb
 from pt.figures._compose import compose, lay_over
 from pt.figures._drawn import LEAST_LENGTH, Drawn, prepare
-from pt.figures._files import encode_jpeg, write_scene
+from pt.figures._files import write_scene
 from pt.figures._framing import narrow_note
 from pt.figures._layout import Layout, View
-from pt.figures._legend import PIXELS_PER_INCH, font_of, raster, save
-from pt.figures._marks import with_scale_bar
+from pt.figures._legend import save
 from pt.figures._noise import Noise, squares_of, until_invisible
 from pt.figures._options import Options, described
 from pt.figures._overlay import INK, Overlaid, Shares, line_width, pixels_per_length, rays_per_side, read_shares
 from pt.figures._particles import Particles
+from pt.figures._picture import PAGES, Picture, background_of, strip_of
 from pt.figures._rods import cell_edges
 from pt.figures._stage import EDGES, SURROUND_BRIGHTNESS
 from pt.figures._styles import styled
 
-WORDS: Final = "#222222"
 STEPPED: Final = ("soft", "illustrative")
 LEAST_WIDTH: Final = 16
 LEGENDS: Final = ("svg", "pdf", "png")
@@ -49,8 +45,8 @@ def view_of(drawn: Drawn, options: Options, turns: bool = False) -> View:
     size = options.size
     if options.pixel_width is not None:
         size = _printed_size(drawn, options, turns)
-    if size is not None and options.colorbar and drawn.legend is not None:
-        size = size[0] - _strip_of(drawn.legend, size[1], options), size[1]
+    if size is not None and (strip := strip_of(drawn.legend, size[1], options)):
+        size = size[0] - strip, size[1]
         if size[0] < LEAST_WIDTH:
             raise ValueError(f"size = {options.size}: has no room for particles beside the color bar")
     if options.camera is not None:
@@ -63,8 +59,8 @@ def _printed_size(drawn: Drawn, options: Options, turns: bool) -> tuple[int, int
     assert options.pixel_width is not None
     shape = (1024, 768) if options.camera else View.of(drawn.balls, options.view, options.up, options.projection, None, turns).size
     height = 0
-    for _ in range(4 if options.colorbar and drawn.legend is not None else 1):
-        strip = _strip_of(drawn.legend, height, options) if height else 0
+    for _ in range(4):
+        strip = strip_of(drawn.legend, height, options) if height else 0
         height = max(round((options.pixel_width - strip) * shape[1] / shape[0]), LEAST_WIDTH)
     return options.pixel_width, height
 
@@ -122,12 +118,6 @@ class Staged:
         format = format_of(path, LEGENDS)
         write_atomically(path, lambda file: save(self.drawn.legend, file, format))
 
-    def _can_denoise(self) -> bool:
-        if find_library() or ctypes.util.find_library("OpenImageDenoise"):
-            return True
-        self.notes.append("the draft is noisy: Open Image Denoise, by pip install pyoidn (88 MB), would remove the noise")
-        return False
-
     def _with_look(self, context: Context, settings: RenderSettings, shares: Shares) -> Shares:
         layout, options = self.layout, self.options
         if options.style == "illustrative":
@@ -147,22 +137,27 @@ class Staged:
         settings = RenderSettings(*self.layout.size, max_path_length=options.max_path_length, seed=options.seed)
         overlaid = Overlaid(len(lamps), count, self.drawn.all_radii, options.outlines, options.depth_cue > 0.0,
                             options.style in STEPPED, self.drawn.all_groups if options.style == "illustrative" else None)
-        solid = None if self.drawn.opacities is None else replace(self.drawn, opacities=1.0 * (self.drawn.opacities >= 0.5))
-        context.set_scene(scene if solid is None or not options.outlines else self._scene_of(solid))
+        opacities, marks = self.drawn.opacities, self.drawn.marks
+        solid = None
+        if opacities is not None and (options.outlines or marks.words):
+            solid = self._scene_of(replace(self.drawn, opacities=1.0 * (opacities >= 0.5)))
+        context.set_scene(solid or scene)
         context.set_camera(camera)
         shares = read_shares(context, camera, settings, overlaid)
-        if solid is not None and options.outlines:
+        context.set_render(settings)
+        seen = marks.seen(camera, context.readback(Quantity.DEPTH)[:, :, 0]) if marks.words else np.zeros(0, bool)
+        if solid is not None:
             context.set_scene(scene)
             shares = replace(read_shares(context, camera, settings, replace(overlaid, outlines=False)), outlines=shares.outlines)
+        shares = replace(shares, seen=seen)
         shares = self._with_look(context, settings, shares)
         stage: Any = SURROUND_BRIGHTNESS if len(lamps) > 1 else 1.0
-        denoise = options.denoise or options.draft and self._can_denoise()
         if options.stops_by_noise:
             show = functools.partial(_sixteen_bits, options, stage, shares)
             image = until_invisible(context, scene, camera, settings, show, shares.shapes > 0.0, options.progress)
         else:
             image = context.render(scene, camera, settings, options.most_samples, target_error=options.error or 0.0,
-                                   progress=options.progress, denoise=denoise)
+                                   progress=options.progress, denoise=options.denoise)
         if self.drawn.opacities is not None:
             per_side = rays_per_side(image.stats.mean_sample_count, settings.width * settings.height)
             shapes = read_shares(context, camera, settings, replace(overlaid, outlines=False), per_side).shapes
@@ -177,13 +172,15 @@ class Staged:
         return Figure(image, self, stage, shares)
 
 
-class Figure(Image):
-    """An Image whose picture also has a background, lines and a color bar, which its radiance lacks.
+class Figure(Picture, Image):
+    """An Image whose picture also has a background, lines and words, which its radiance lacks.
 
     legend  meaning of the colors, or None
     notes   choices made from the data, and parts that are not shown
     noise   None if the image is denoised
     """
+
+    formats = (*PAGES, "exr", "npy")
 
     def __init__(self, image: Image, staged: Staged, stage: Any, shares: Shares) -> None:
         vars(self).update(vars(image))
@@ -191,6 +188,7 @@ class Figure(Image):
         self.scene, self.camera = staged.scene, staged.layout.camera
         self.legend, self.notes = staged.drawn.legend, list(staged.notes)
         self._staged, self._stage, self._shares = staged, stage, shares
+        self.figures = (self,)
 
     @functools.cached_property
     def noise(self) -> Noise | None:
@@ -201,69 +199,22 @@ class Figure(Image):
         show = functools.partial(_sixteen_bits, self._staged.options, self._stage, self._shares)
         return Noise.of(squares_of(show, self.radiance, self.standard_error)[self._shares.shapes > 0.0])
 
+    def _pixels(self, dtype: Any, exposure: float | None, background: Doubles | None, **display: Any) -> npt.NDArray[Any]:
+        exposure = self.exposure if exposure is None else exposure
+        exposure = automatic_exposure(self.radiance) if exposure is None else exposure
+        return _pixels(self.radiance, self._stage, self._shares, exposure, background, dtype, **display)
+
     def __repr__(self) -> str:
         return super().__repr__()[:-1] + (f", {self.noise}>" if self.noise else ">")
 
-    @property
-    def picture_size(self) -> tuple[int, int]:
-        height, width = self.shape[:2]
-        options = self._staged.options
-        if not options.colorbar or self.legend is None:
-            return width, height
-        return options.size or (width + _strip_of(self.legend, height, options), height)
-
-    def to_srgb8(self, exposure: float | None = None, **display: Any) -> npt.NDArray[np.uint8]:
-        """Returns sRGB, shape (height, width, 3), or 4 channels with a transparent background. exposure: stops; None: the figure's
-        exposure, else automatic. display: as in Image, applied to the light over the background."""
-        return self.picture(np.uint8, exposure, **display)
-
-    def picture(self, dtype: Any = np.uint8, exposure: float | None = None, **display: Any) -> npt.NDArray[Any]:
-        exposure = self.exposure if exposure is None else exposure
-        exposure = automatic_exposure(self.radiance) if exposure is None else exposure
-        options = self._staged.options
-        background, ink = _background(options.background)
-        pixels = _pixels(self.radiance, self._stage, self._shares, exposure, background, dtype, **display)
-        if options.scale_bar is not None:
-            dpi = options.printed_dpi or PIXELS_PER_INCH
-            pixels = with_scale_bar(pixels, options.scale_bar, self.camera, self._staged.drawn.scale, ink, dpi,
-                                    font_of(len(pixels), options.font_size))
-        if options.colorbar and self.legend is not None:
-            strip = self._strip(len(pixels), background, ink)
-            pixels = np.hstack([pixels, np.floor(np.iinfo(dtype).max * strip + 0.5).astype(dtype)])
-        return pixels
-
-    def _strip(self, height: int, background: Doubles | None, ink: str) -> Doubles:
-        width = self.picture_size[0] - self.shape[1]
-        words = _lettered(self.legend, height, ink, self._staged.options)[:height, :width]
-        strip = np.zeros((height, width, 4))
-        top, left = (height - len(words)) // 2, (width - words.shape[1]) // 2
-        strip[top:top + len(words), left:left + words.shape[1]] = words
-        if background is None:
-            return strip
-        opaque: Doubles = strip[:, :, 3:]
-        result: Doubles = strip[:, :, :3] * opaque + background * (1.0 - opaque)
-        return result
-
     def encode(self, format: str, *, exposure: float | None = None, bits: int = 8) -> bytes:
-        """Returns a png, jpg or exr file. exr has linear radiance. bits: 8 or, for png, 16."""
-        if format == "exr":
-            return encode_exr(self.radiance)
-        if format in ("jpg", "jpeg"):
-            if self._staged.options.background == "transparent":
-                raise ValueError("background = transparent: JPEG has no alpha; PNG has")
-            return encode_jpeg(self.picture(np.uint8, exposure), self._staged.options.printed_dpi)
-        if format != "png" or bits not in (8, 16):
-            raise ValueError(f"format = {format!r}, bits = {bits}: must be png, jpg or exr, of 8 bits, or of 16 in a png")
-        return encode_png(self.picture(np.uint8 if bits == 8 else np.uint16, exposure), self._staged.options.printed_dpi)
+        return encode_exr(self.radiance) if format == "exr" else super().encode(format, exposure=exposure, bits=bits)
 
     def save(self, path: Path, *, exposure: float | None = None, bits: int = 8) -> None:
-        """Writes the picture (.png, .jpg) or the linear radiance (.exr, .npy) atomically. Raises ValueError for another ending."""
-        format = format_of(path, (*PICTURES, "npy"))
-        if format == "npy":
-            super().save(path)
+        if format_of(path, self.formats) == "npy":
+            Image.save(self, path)
         else:
-            data = self.encode(format, exposure=exposure, bits=bits)
-            write_atomically(path, lambda file: file.write(data))
+            super().save(path, exposure=exposure, bits=bits)
 
     def save_legend(self, path: Path) -> None:
         """Writes .svg, .pdf or .png. Raises ValueError if there is no legend."""
@@ -272,17 +223,6 @@ class Figure(Image):
     def save_scene(self, path: Path) -> None:
         """Writes a scene file for `pt render` and NPY files of the particles, without background, outlines, color bar and seed."""
         self._staged.save_scene(path)
-
-    def _repr_png_(self) -> bytes:
-        return self.encode("png")
-
-
-def _background(background: Any) -> tuple[Doubles | None, str]:
-    if isinstance(background, str) and background == "transparent":
-        return None, WORDS
-    color = (255, 255, 255) if isinstance(background, str) and background == "white" else srgb("background", background)
-    signal = np.array(color) / 255.0
-    return signal, WORDS if linear(signal) @ (0.2126, 0.7152, 0.0722) > 0.18 else "#dddddd"
 
 
 def _pixels(radiance: Array, stage: Any, shares: Shares, exposure: float, background: Doubles | None, dtype: Any, **display: Any
@@ -296,16 +236,8 @@ def _pixels(radiance: Array, stage: Any, shares: Shares, exposure: float, backgr
 def _sixteen_bits(options: Options, stage: Any, shares: Shares, light: Array, radiance: Array) -> npt.NDArray[Any]:
     """Automatic exposure depends on `radiance`. Instead of a transparent background, white is shown."""
     exposure = automatic_exposure(radiance) if options.exposure is None else options.exposure
-    background, _ = _background(options.background)
+    background, _ = background_of(options)
     return _pixels(light, stage, shares, exposure, np.ones(3) if background is None else background, np.uint16)
-
-
-def _lettered(legend: Legend, height: int, ink: str, options: Options) -> Doubles:
-    return raster(legend, height, ink, options.printed_dpi or PIXELS_PER_INCH, options.font_size)
-
-
-def _strip_of(legend: Legend, height: int, options: Options) -> int:
-    return _lettered(legend, height, WORDS, options).shape[1] + 2 * max(8, round(0.025 * height))
 
 
 P = ParamSpec("P")

@@ -22,6 +22,7 @@ Radius: TypeAlias = "float | str | Mapping[str, float] | npt.ArrayLike | None"
 Opacity: TypeAlias = "float | str | Mapping[str, float] | npt.ArrayLike | None"
 Bonds: TypeAlias = "bool | str | float | npt.ArrayLike | None"
 Vectors: TypeAlias = "str | npt.ArrayLike | None"
+Labels: TypeAlias = "str | Mapping[str, str] | npt.ArrayLike | None"
 Direction: TypeAlias = "str | Sequence[float] | npt.NDArray[Any]"
 Columns: TypeAlias = "Mapping[str, str] | str | None"
 
@@ -32,7 +33,6 @@ MODELS: Final = ("auto", "space-filling", "ball-and-stick", "sticks", "tube")
 DPI: Final = 300.0
 UNITS: Final = {"in": 1.0, "cm": 2.54, "mm": 25.4, "pt": 72.0}  # per inch
 SAMPLES: Final = 128
-DRAFT_SAMPLES: Final = 8
 MOST_SAMPLES: Final = 65536
 
 
@@ -70,8 +70,12 @@ def _stops(text: str) -> float | None:
     return None if text == "auto" else float(text)
 
 
-_data, _particles, _view, _look, _samples, _python = (
-    functools.partial(_option, group) for group in ("data", "particles", "view", "look", "samples", ""))
+def _pairs(text: str) -> list[tuple[int, int]]:
+    return [two("-", int)(pair) for pair in text.split(",")]
+
+
+_data, _particles, _view, _look, _words, _samples, _python = (
+    functools.partial(_option, group) for group in ("data", "particles", "view", "look", "words", "samples", ""))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -110,8 +114,6 @@ class Options:
     categories: bool | Sequence[str] = _particles(False, "", "treats numbers as names of categories with different colors. In "
                                                   "Python also a list of all names, in their order")
     nan_color: str = _particles("#bfbfbf", "COLOR", "color of particles without a number")
-    title: str | None = _particles(None, "WORDS", "title of the legend, with the unit; matplotlib's TeX. Default: the column")
-    colorbar: bool = _particles(False, "", "draws the legend at the right of the picture")
     radius: Radius = _particles(
         None, "R|COLUMN|...", "a number in the units of the data; a column; radii of elements in angstroms: covalent, van-der-waals, or "
         "solvent-accessible, which adds 1.4; radii of types and selections, \"O=0.7,H=0.3\", \"covalent,chain A=2\"; any of these times "
@@ -148,11 +150,6 @@ class Options:
                                       "Python also a number of inches). The height follows from the data")
     dpi: float | None = _view(None, "N", "pixels per inch, which .png and .jpg state. Default: 300 with a width", read=float,
                               rule=(lambda dpi: 1.0 <= dpi <= 10000.0, "from 1 to 10000"))
-    font_size: float | None = _view(None, "POINTS", "size of the text at this dpi, 7 or 7pt. Default: a fiftieth of the height",
-                                    read=lambda text: float(text.removesuffix("pt")),
-                                    rule=(lambda points: 0.0 < points < 1000.0, "> 0 and < 1000"))
-    scale_bar: str | float | None = _view(None, "LENGTH", "draws a bar of this length in units of the data, 10 or \"10 nm\". Needs an "
-                                          "orthographic projection, because in perspective lengths depend on the depth")
     view: Direction = _view(VIEWS[0], "SIDE|X,Y,Z", f"{', '.join(VIEWS)}, or the direction to the camera. best looks along the "
                             "shortest principal axis, with the longest one across")
     up: Direction = _view("z", "AXIS|X,Y,Z", "upward direction of the data and the picture: x, y, z, -x, -y, -z, or a vector")
@@ -178,9 +175,22 @@ class Options:
     exposure: float | None = _look(0.0, "EV", "brightness of the balls in stops; auto (in Python None) as in pt render",
                                    read=_stops, rule=(lambda stops: -64.0 <= stops <= 64.0, "from -64 to 64"))
 
+    colorbar: bool = _words(False, "", "draws the legend at the right of the picture")
+    title: str | None = _words(None, "WORDS", "title of the legend, with the unit; matplotlib's TeX. Default: the column")
+    scale_bar: str | float | None = _words(None, "LENGTH", "draws a bar of this length in units of the data, 10 or \"10 nm\". Needs an "
+                                           "orthographic projection, because in perspective lengths depend on the depth")
+    axes: bool = _words(False, "", "draws the directions of x, y and z, or of the edges a, b and c of a drawn cell")
+    labels: Labels = _words(None, "COLUMN|...", "words on particles that nothing hides: a column, or words and columns of selections, "
+                            "\"name CA=resid,resname XK2=ligand\"; in Python also an array of shape (n,), with \"\" for none")
+    distances: Any = _words(None, "I-J,...", "draws lines between particles, by index from 0, with their lengths in units of the data; in "
+                            "Python pairs of indices, shape (k, 2)", read=_pairs)
+    font_size: float | None = _words(None, "POINTS", "size of the text at this dpi, 7 or 7pt. Default: a fiftieth of the height",
+                                     read=lambda text: float(text.removesuffix("pt")),
+                                     rule=(lambda points: 0.0 < points < 1000.0, "> 0 and < 1000"))
+
     samples: int | None = _samples(None, "N", "samples of a pixel. Default: as many as make the noise of the particles "
-                                   "invisible (1.5 steps of 255 in the mean of 2x2 pixels), up to 256; up to 65536 with an error; 128 "
-                                   "with denoise; 8 for a draft",
+                                   "invisible, 1.5 steps of 255 in 2x2 pixels, at most 256; at most 65536 with an error, 128 to "
+                                   "denoise. 4 make a quick draft",
                                    flag="--spp", read=int,
                                    rule=(lambda count: 1 <= count < 2**32, "at least 1 and below 2^32"))
     error: float | None = _samples(None, "E", "stops when the image's relative error is at most this: 0.02 or, on the command "
@@ -188,7 +198,6 @@ class Options:
                                    rule=(lambda share: 0.0 < share < math.inf, "> 0 and finite"))
     denoise: bool = _samples(False, "", "denoises the image and states the error of the result. Needs Open Image Denoise (the extra "
                              "denoise)")
-    draft: bool = _samples(False, "", "a quick picture of few samples, denoised if Open Image Denoise is installed")
     seed: int = _samples(0, "N", "seed of the random numbers", read=int,
                          rule=(lambda seed: 0 <= seed < 2**64, "at least 0 and below 2^64"))
     max_path_length: int = _python(4, "", "as in RenderSettings")
@@ -214,14 +223,19 @@ class Options:
             raise ValueError("scale_bar: must have an orthographic projection: in perspective lengths depend on the depth")
 
     @property
-    def pixel_width(self) -> int | None:
+    def inches(self) -> float | None:
+        """The given width."""
         if self.width is None:
             return None
         found = re.fullmatch(r"\s*([\d.]+)\s*(cm|mm|in|pt)?\s*", str(self.width))
-        pixels = round(float(found[1]) / UNITS[found[2] or "in"] * (self.dpi or DPI)) if found else 0
-        if not 16 <= pixels <= 65536:
+        inches = float(found[1]) / UNITS[found[2] or "in"] if found else 0.0
+        if not 16 <= round(inches * (self.dpi or DPI)) <= 65536:
             raise ValueError(f"width = {self.width!r}: must be like 8.5cm, with 16 to 65536 pixels")
-        return pixels
+        return inches
+
+    @property
+    def pixel_width(self) -> int | None:
+        return None if self.inches is None else round(self.inches * (self.dpi or DPI))
 
     @property
     def printed_dpi(self) -> float | None:
@@ -240,8 +254,7 @@ class Options:
 
     @functools.cached_property
     def _models(self) -> tuple[str, dict[str, str]]:
-        base, others, picks = ((self.model, {}, {}) if isinstance(self.model, str) and "=" not in self.model else
-                               rules("model", self.model))
+        base, others, picks = rules(self.model)
         for model in (base or "auto", *others, *picks.values()):
             if model not in MODELS:
                 raise ValueError(f"model = {model!r}: must be {', '.join(MODELS)}")
@@ -259,11 +272,11 @@ class Options:
 
     @property
     def most_samples(self) -> int:
-        return self.samples or (MOST_SAMPLES if self.error else DRAFT_SAMPLES if self.draft else SAMPLES)
+        return self.samples or (MOST_SAMPLES if self.error else SAMPLES)
 
     @property
     def stops_by_noise(self) -> bool:
-        return self.samples is None and self.error is None and not (self.denoise or self.draft)
+        return self.samples is None and self.error is None and not self.denoise
 
 
 def described() -> str:

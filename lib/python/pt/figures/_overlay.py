@@ -31,7 +31,7 @@ INK: Final = 0.2  # fraction of a shape's color in its outline, in the illustrat
 @dataclass(frozen=True)
 class Shares:
     """Values of each pixel from first hits: coverage by shapes and outlines, the shapes' mean depth, and the fraction by which they fade.
-    `flat` has unlit colors."""
+    `flat` has unlit colors. `seen` marks labels that nothing hides."""
 
     shapes: Doubles
     outlines: Doubles
@@ -39,6 +39,7 @@ class Shares:
     fade: Doubles | None = None
     flat: Array | None = None
     ink: Any = OUTLINE_LIGHT
+    seen: Array | None = None
 
 
 @dataclass(frozen=True)

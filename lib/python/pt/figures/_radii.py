@@ -28,15 +28,12 @@ STEPS: Final = np.indices((3, 3, 3)).reshape(3, 1, 27) - 1
 
 
 def radii_of(particles: Particles, radius: Radius, notes: list[str]) -> Array:
-    picks: Mapping[str, float] = {}
-    if isinstance(radius, Mapping) or isinstance(radius, str) and "=" in radius:
-        base, types, picks = rules("radius", radius)
-        try:
-            types, picks = ({name: float(number) for name, number in each.items()} for each in (types, picks))
-        except ValueError:
-            raise ValueError(f"radius = {radius!r}: must be like O=0.7,H=0.3 or chain A=2") from None
-        radius = types or base
-    radii = _rest_of_radii(particles, radius, notes)
+    base, types, picks = rules(radius)
+    try:
+        types, picks = ({name: float(number) for name, number in each.items()} for each in (types, picks))
+    except ValueError:
+        raise ValueError(f"radius = {radius!r}: must be like O=0.7,H=0.3 or chain A=2") from None
+    radii = _rest_of_radii(particles, types or base, notes)
     if picks:
         radii = np.array(np.broadcast_to(radii, len(particles)))
         for selection, number in picks.items():
@@ -84,13 +81,11 @@ def _unscaled(particles: Particles, radius: Radius, notes: list[str]) -> Array:
 def opacities_of(particles: Particles, opacity: Opacity) -> Array | None:
     if opacity is None:
         return None
-    picks: Mapping[str, Any] = {}
-    if isinstance(opacity, Mapping) or isinstance(opacity, str) and "=" in opacity:
-        base, types, picks = rules("opacity", opacity)
-        if types:
-            raise ValueError(f"opacity: {next(iter(types))!r} must be a selection, like element O")
-        opacity = base or 1.0
-    shares = _numbers("opacity", _number_or_column(particles, opacity) if isinstance(opacity, str) else opacity,
+    base, types, picks = rules(opacity)
+    if types:
+        raise ValueError(f"opacity: {next(iter(types))!r} must be a selection, like element O")
+    base = 1.0 if base is None else base
+    shares = _numbers("opacity", _number_or_column(particles, base) if isinstance(base, str) else base,
                       len(particles.positions))
     if picks:
         shares = np.array(np.broadcast_to(shares, len(particles)), np.float64)

@@ -42,15 +42,23 @@ def chosen(particles: Particles, text: str, option: str = "where") -> Mask:
     return _Reader(particles, text, option).all()
 
 
+def masked(particles: Particles, key: str, option: str) -> Mask:
+    """The particles of a selection, a type or an element."""
+    kind = "type" if particles.elements is None else "element"
+    return chosen(particles, key if is_selection(key) else f'{kind} "{key}"', option)
+
+
 def is_selection(text: str) -> bool:
     """Other texts are names of types or elements."""
     return bool(re.search(r"[\s()<>]", text.strip())) or text.strip() in (*RESIDUES, "all")
 
 
-def rules(option: str, given: Any) -> tuple[Any, dict[str, Any], dict[str, Any]]:
+def rules(given: Any) -> tuple[Any, dict[str, Any], dict[str, Any]]:
     """Splits a mapping, or "BASE,O=1,chain A=2", into the base or None, values of types, and values of selections."""
     base, pairs = None, given
     if not isinstance(given, Mapping):
+        if not isinstance(given, str) or "=" not in given:
+            return given, {}, {}
         parts = given.split(",")
         base = ",".join(part for part in parts if "=" not in part).strip() or None
         pairs = dict(part.rsplit("=", 1) for part in parts if "=" in part)
