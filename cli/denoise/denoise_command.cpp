@@ -47,13 +47,7 @@ RenderedImage image_of(const FilmHandle &film, const RenderReport &report) {
     return image;
 }
 
-struct Halves {
-    RenderReport report;
-    RenderedImage first;
-    RenderedImage second;
-};
-
-Halves read_halves(const DenoiseOptions &options) {
+RenderReport read_halves(const DenoiseOptions &options, Halves &halves) {
     FilmHandle first(options.first, read_film_file(options.first));
     const std::vector<std::byte> bytes = read_film_file(options.second);
     const FilmHandle second(options.second, bytes);
@@ -67,7 +61,9 @@ Halves read_halves(const DenoiseOptions &options) {
               concat(options.second, ": is ", window_text(other.window), " with ", other.stats.sample_count,
                      " samples per pixel, ", options.first, " is ", window_text(report.window), " with ",
                      report.stats.sample_count, ": both must be equal"));
-    return {report, image_of(first, report), image_of(second, other)};
+    halves.first = image_of(first, report);
+    halves.second = image_of(second, other);
+    return report;
 }
 
 DecodedImage read_guides(const std::string &path, const ImageWindow &window) {
@@ -95,12 +91,13 @@ nlohmann::ordered_json stats_json_of(const RenderReport &report, const RenderedI
 int run_denoise(const DenoiseOptions &options) {
     const OutputOptions &output = options.output;
     check(options);
-    Halves halves = read_halves(options);
-    RenderReport &report = halves.report;
+    Halves halves;
+    RenderReport report = read_halves(options, halves);
     check_files(output, report.window);
     const DecodedImage guides = read_guides(options.guides, report.window);
-    const RenderedImage image =
-        denoised(options.library, halves.first, std::move(halves.second), guides.layer("albedo"), guides.layer("N"));
+    halves.albedo = guides.layer("albedo");
+    halves.normal = guides.layer("N");
+    const RenderedImage image = denoised(options.library, std::move(halves));
     report.stats = image.stats;
     report.error = image.error;
     report.is_denoised = true;

@@ -2,17 +2,37 @@
 
 #include "cli/picture/picture_layer.h"
 
+#include <functional>
 #include <span>
 #include <string>
+
+struct pt_rounds_info;
 
 namespace cli {
 
 // Throws Failure(ExitCode::file), with advice on installation, if the library does not work.
 void require_denoiser(const std::string &library);
 
-// The halves must have equally many samples. The result has their mean as `raw`, the sum of their counts, and the
-// layers of the second half. Throws Failure.
-RenderedImage denoised(const std::string &library, const RenderedImage &first, RenderedImage second,
-                       std::span<const float> albedo, std::span<const float> normal);
+// Two images with equally many samples.
+struct Halves {
+    RenderedImage first;
+    RenderedImage second;
+    std::span<const float> albedo;
+    std::span<const float> normal;
+};
+
+// A pt_round_fn that returns false, with the halves unchanged, to stop. `error` is the last round's.
+using RenderHalves = std::function<bool(std::uint32_t sample_count, const pt_error_estimate &error, Halves &halves)>;
+
+struct Denoised {
+    RenderedImage image; // has the halves' mean as `raw`, the sum of their counts, and the second half's layers
+    pt_result ended;
+};
+
+RenderedImage denoised(const std::string &library, Halves halves);
+
+// Calls pt_denoise_rounds. Throws Failure.
+Denoised denoised_rounds(const std::string &library, const Rectangle &part, pt_rounds_info rounds,
+                         const RenderHalves &render);
 
 } // namespace cli

@@ -117,54 +117,47 @@ std::optional<ToneMap> tone_map_of(const RenderTask &task, std::span<const float
                                                : std::nullopt;
 }
 
-// Albedo and normal of the second half are kept only if wanted.
-RenderedImage denoised_halves(const RenderOptions &options, const RenderedImage &first, RenderedImage second) {
-    const auto guide = [&](std::uint32_t quantity) -> std::span<const float> {
-        return std::ranges::find(second.layers, quantity, &PictureLayer::quantity)->values;
-    };
-    const std::span<const float> albedo = guide(PT_QUANTITY_ALBEDO);
-    const std::span<const float> normal = guide(PT_QUANTITY_NORMAL);
-    RenderedImage image = denoised(options.denoiser, first, std::move(second), albedo, normal);
-    std::erase_if(image.layers, [&](const PictureLayer &each) {
-        return std::ranges::count(options.output.layers, each.quantity) == 0;
-    });
-    return image;
-}
-
-// If a rule may end the rendering, both halves grow in rounds (pt_next_round). Denoising each round gives its error.
-// After a stop the picture of the last round remains.
+// If a rule may end the rendering, both halves grow in rounds. After a stop the picture of the last round remains.
 ImageRender::Result render_halves(const RenderTask &task, ImageRender &render, const Stop &stop) {
-    const Clock::time_point start = Clock::now();
     const StoppingRules &rules = task.options.stopping;
     std::array<std::vector<std::byte>, 2> films;
-    std::vector<PictureLayer> layers;
-    ImageRender::Result result{};
     std::uint32_t done = 0;
-    std::uint32_t expected = task.sample_count;
-    std::uint32_t end = task.has_rounds() ? std::min(pt_next_round(0), task.sample_count) : task.sample_count;
-    while (end > done) {
+    const auto add_round = [&](std::uint32_t end, const pt_error_estimate &error, Halves &halves) {
+        const std::uint32_t expected = done > 0 && rules.has_target()
+                                           ? std::max(end, forecast_sample_count(done, error.relative_rmse_high,
+                                                                                 rules.target_error, task.sample_count))
+                                           : task.sample_count;
         const auto run = [&](std::uint32_t half, std::uint32_t other) {
             return render.run({half, end, other, expected, task.has_rounds() ? &films[half] : nullptr}).image;
         };
-        const RenderedImage first = run(0, done);
+        RenderedImage first = run(0, done);
         RenderedImage second = run(1, end);
         if (stop())
-            break;
-        if (done == 0)
-            layers = second.layers;
-        second.layers = layers;
-        result.image = denoised_halves(task.options, first, std::move(second));
+            return false;
+        if (done > 0)
+            second.layers = std::move(halves.second.layers);
+        const auto guide = [&](std::uint32_t quantity) -> std::span<const float> {
+            return std::ranges::find(second.layers, quantity, &PictureLayer::quantity)->values;
+        };
+        halves.albedo = guide(PT_QUANTITY_ALBEDO);
+        halves.normal = guide(PT_QUANTITY_NORMAL);
+        halves.first = std::move(first);
+        halves.second = std::move(second);
         done = end;
-        const double error = result.image.error.relative_rmse_high;
-        if (rules.has_target() && error <= rules.target_error)
-            break;
-        const double in_time = std::min<double>(done * rules.growth_left(seconds_since(start)), task.sample_count);
-        end = std::min(static_cast<std::uint32_t>(in_time), pt_next_round(done));
-        if (rules.has_target())
-            expected = std::max(end, forecast_sample_count(done, error, rules.target_error, task.sample_count));
-        if (end <= done && done < task.sample_count)
-            result.ended_by = ended_by_time;
-    }
+        return true;
+    };
+    auto rounds = sized<pt_rounds_info>();
+    rounds.sample_count = task.sample_count;
+    rounds.target_error = rules.target_error;
+    rounds.time_limit = rules.time_limit.value_or(0.0);
+    auto [image, ended] = denoised_rounds(task.options.denoiser, task.window.part, rounds, add_round);
+    std::erase_if(image.layers, [&](const PictureLayer &each) {
+        return std::ranges::count(task.options.output.layers, each.quantity) == 0;
+    });
+    ImageRender::Result result{};
+    result.image = std::move(image);
+    if (ended == PT_OK && done < task.sample_count)
+        result.ended_by = ended_by_time;
     return result;
 }
 

@@ -7,7 +7,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <string>
 
@@ -21,10 +20,6 @@ struct StoppingRules {
     bool has_any() const { return has_target() || time_limit; }
 
     std::uint32_t usual_samples() const { return has_any() ? 65536 : 64; }
-
-    double growth_left(double seconds) const {
-        return time_limit.value_or(std::numeric_limits<double>::infinity()) / seconds;
-    }
 };
 
 inline constexpr const char *stopping_options = "--error or --time";

@@ -75,8 +75,7 @@ pt_accumulate_info validated_accumulate(const pt_accumulate_info *info, bool may
     const Subject subject(violations, "accumulate");
     subject.require(accumulate.sample_count >= 1 || accumulate.target_error > 0.0, "sample_count",
                     accumulate.sample_count, "must be >= 1 without a target_error");
-    subject.require(std::isfinite(accumulate.target_error) && accumulate.target_error >= 0.0, "target_error",
-                    accumulate.target_error, "must be finite and >= 0");
+    subject.check("target_error", accumulate.target_error, not_negative_rule);
     subject.require(accumulate.sampling <= PT_SAMPLING_ADAPTIVE, "sampling", accumulate.sampling,
                     "must be a PT_SAMPLING_* of pt.h");
     subject.require(accumulate.sampling != PT_SAMPLING_ADAPTIVE || accumulate.target_error > 0.0, "sampling",

@@ -31,8 +31,7 @@ pt_compare_info validated_compare(const pt_compare_info *user) {
     subject.require(pixel_count >= 1 && pixel_count <= UINT32_MAX, {"width", "* height"}, pixel_count,
                     "must be in [1, 2^32 - 1]");
     subject.require(info.rate >= 0.0 && info.rate <= 0.5, "rate", info.rate, "must be in (0, 0.5], or 0");
-    subject.require(std::isfinite(info.min_change) && info.min_change >= 0.0, "min_change", info.min_change,
-                    "must be finite and >= 0");
+    subject.check("min_change", info.min_change, not_negative_rule);
     violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
     check_image(Subject(violations, "first"), info.first, pixel_count);
     check_image(Subject(violations, "second"), info.second, pixel_count);

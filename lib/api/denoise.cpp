@@ -8,6 +8,8 @@
 #include "lib/denoise/open_image_denoise.h"
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -41,19 +43,56 @@ ErrorEstimate denoise(const pt_denoise_info &info) {
     return combine(info, first.data(), second.data());
 }
 
+pt_error_estimate denoise(const pt_denoise_info *info, pt_error_estimate *error) {
+    struct_size_of(error, "error");
+    const pt_error_estimate stated_error = stated(denoise(validated_denoise(info)));
+    copy_out(stated_error, error, "error");
+    return stated_error;
+}
+
+pt_rounds_info validated_rounds(const pt_rounds_info *user) {
+    const pt_rounds_info rounds = copy_in(user, "rounds");
+    Violations violations;
+    const Subject subject(violations, "rounds");
+    subject.require(rounds.sample_count >= 1, "sample_count", rounds.sample_count, "must be >= 1");
+    subject.check("target_error", rounds.target_error, not_negative_rule);
+    subject.check("time_limit", rounds.time_limit, not_negative_rule);
+    if (!rounds.render)
+        subject.refuse("render", "NULL", "must not be NULL");
+    violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
+    return rounds;
+}
+
+pt_result denoise_rounds(const pt_rounds_info &rounds, const pt_denoise_info *info, pt_error_estimate *error) {
+    using Seconds = std::chrono::duration<double>;
+    constexpr double first = 16.0; // the first number with a known error
+    const auto start = std::chrono::steady_clock::now();
+    const bool has_rule = rounds.target_error > 0.0 || rounds.time_limit > 0.0;
+    double end = has_rule ? std::min<double>(first, rounds.sample_count) : rounds.sample_count;
+    for (double done = 0.0; end > done;) {
+        if (rounds.render(rounds.render_user, static_cast<std::uint32_t>(end)) != 0)
+            return PT_CANCELLED;
+        const double reached = denoise(info, error).relative_rmse_high;
+        if (rounds.target_error > 0.0 && reached <= rounds.target_error)
+            return PT_TARGET_REACHED;
+        done = end;
+        end = std::min<double>(std::max(std::floor(1.5 * done), first), rounds.sample_count);
+        const double seconds = Seconds(std::chrono::steady_clock::now() - start).count();
+        if (rounds.time_limit > 0.0)
+            end = std::min(end, std::floor(done * (rounds.time_limit / seconds)));
+    }
+    return PT_OK;
+}
+
 } // namespace
 
 } // namespace pt
 
 pt_result pt_denoise(const pt_denoise_info *info, pt_error_estimate *error) {
-    return pt::guard(pt::thread_last_error, [&] {
-        pt::struct_size_of(error, "error");
-        pt::copy_out(pt::stated(pt::denoise(pt::validated_denoise(info))), error, "error");
-    });
+    return pt::guard(pt::thread_last_error, [&] { pt::denoise(info, error); });
 }
 
-uint32_t pt_next_round(uint32_t sample_count) {
-    constexpr std::uint64_t first = 16; // the first number with a known error
-    const std::uint64_t next = std::uint64_t{sample_count} + sample_count / 2;
-    return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(next, first, UINT32_MAX));
+pt_result pt_denoise_rounds(const pt_rounds_info *rounds, const pt_denoise_info *info, pt_error_estimate *error) {
+    return pt::guard(pt::thread_last_error,
+                     [&] { return pt::denoise_rounds(pt::validated_rounds(rounds), info, error); });
 }

@@ -78,6 +78,10 @@ inline const char *share_rule(double value) {
     return is_share(value) ? nullptr : "must lie in [0, 1]";
 }
 
+inline const char *not_negative_rule(double value) {
+    return std::isfinite(value) && value >= 0.0 ? nullptr : "must be finite and >= 0";
+}
+
 inline const char *amount_rule(double value, double most, const char *most_rule) {
     if (!std::isfinite(value))
         return "must be finite";

@@ -47,12 +47,24 @@ typedef struct pt_denoise_info {
  * processor. */
 PT_API pt_result pt_denoise(const pt_denoise_info *info, pt_error_estimate *error);
 
-/** Returns the samples per pixel after the next round of denoising, if both images now have sample_count. All programs
- * that render to a target error take the same steps: 16, 24, 36, ..., each 1.5 times the previous one, at most 2^32 -
- * 1.
+/** Renders both images up to sample_count samples per pixel. Returns 0, or another value to stop. */
+typedef int32_t (*pt_round_fn)(void *user, uint32_t sample_count);
+
+/** When pt_denoise_rounds ends. */
+typedef struct pt_rounds_info {
+    uint32_t struct_size;  /**< sizeof(pt_rounds_info) */
+    uint32_t sample_count; /**< most samples per pixel of each image, >= 1 */
+    double target_error;   /**< 0: none; else the largest wanted pt_error_estimate.relative_rmse_high */
+    double time_limit;     /**< 0: none; else seconds, which only the first round may exceed */
+    pt_round_fn render;    /**< stores the images, or changes pt_denoise_info's pointers to them */
+    void *render_user;     /**< argument of render */
+} pt_rounds_info;
+
+/** Calls pt_denoise after each round of rendering. With a target error or a time limit, rounds end at 16, 24, 36, ...
+ * samples per pixel, each 1.5 times the previous number. The last round is shorter if samples or time end first.
  *
- * Any thread. Never fails. */
-PT_API uint32_t pt_next_round(uint32_t sample_count);
+ * Any thread. Returns PT_TARGET_REACHED, PT_CANCELLED if render stops, otherwise PT_OK. */
+PT_API pt_result pt_denoise_rounds(const pt_rounds_info *rounds, const pt_denoise_info *info, pt_error_estimate *error);
 
 #ifdef __cplusplus
 }

@@ -13,7 +13,7 @@ import numpy.typing as npt
 from pt import _structs as structs
 from pt._callbacks import CallbackGuard, Log, Progress, log_function
 from pt._camera import Camera, RenderSettings
-from pt._denoise import OTHER_SEED, joined_halves
+from pt._denoise import OTHER_SEED, Pixels, denoise_rounds
 from pt._enums import CreateFlag, Format, Quantity, Result, Sampling
 from pt._errors import BrokenRule, InvalidStateError
 from pt._files import Path
@@ -278,36 +278,46 @@ def _render_denoised(context: Context, settings: RenderSettings, samples: int, t
     most = max(samples // 2, 1)
     halves = [settings, replace(settings, seed=settings.seed ^ OTHER_SEED)]
     films: list[Film | None] = [None, None]
-    guides: tuple[npt.NDArray[np.float32], ...] = ()
-    done, image, taken, is_stopped = 0, None, 0, False
+    parts: list[tuple[Pixels, Stats, Pixels | None]] = []
+    guides: tuple[Pixels, ...] = ()
+    done, taken, is_stopped = 0, 0, False
 
-    def share_of_all(fraction: float) -> bool:
-        nonlocal is_stopped
-        is_stopped = bool(progress and progress((taken + (count - done) * fraction) / (2 * most)))
-        return is_stopped
+    def add_round(count: int) -> list[Pixels] | None:
+        nonlocal parts, guides, done, taken
 
-    while done < most and not is_stopped and (image is None or image.error_bounds[1] > target_error > 0.0):
-        count = min(most, library().pt_next_round(done)) if target_error else most
-        parts = []
+        def share_of_all(fraction: float) -> bool:
+            nonlocal is_stopped
+            is_stopped = bool(progress and progress((taken + (count - done) * fraction) / (2 * most)))
+            return is_stopped
+
+        added = []
         for index, half in enumerate(halves):
             if is_stopped:
-                break
+                return None
             context.set_render(half)
             if film := films[index]:
                 context.add_film(film)
             if context.accumulate(count - done, progress=share_of_all if progress else None) == Result.CANCELLED:
-                break
+                return None
             taken += count - done
             films[index] = context.film() if target_error else None
             coverage = context.readback(Quantity.COVERAGE) if settings.coverage else None
-            parts.append((context.readback(), context.stats(), coverage))
-        if len(parts) < len(halves):
-            break
+            added.append((context.readback(), context.stats(), coverage))
         guides = guides or (context.readback(Quantity.ALBEDO), context.readback(Quantity.NORMAL))
-        image, done = joined_halves(parts, guides, settings), count
-    if image is None:
+        parts, done = added, count
+        return [parts[0][0], parts[1][0], *guides]
+
+    radiance, error = denoise_rounds(add_round, (*settings.shape(), 3), most, target_error)
+    if not parts:
         raise InvalidStateError("the samples ended before there were two images to denoise")
-    return image
+    (first, of_first, coverage), (second, of_second, other_coverage) = parts
+    if coverage is not None and other_coverage is not None:
+        coverage = (coverage + other_coverage) / 2
+    summed = ("sample_count", "max_sample_count", "mean_sample_count", "rejected_samples")
+    stats = replace(of_second, **{name: getattr(of_first, name) + getattr(of_second, name) for name in summed})
+    counts = np.full((*first.shape[:2], 1), stats.sample_count)
+    return Image(radiance, np.abs(first - second) / 2, counts, error, stats, raw=(first + second) / 2,
+                 sampler=settings.sampler, estimator=settings.estimator, coverage=coverage)
 
 
 def _destroy(loaded: ctypes.CDLL, handle: ctypes.c_void_p, _log: object) -> None:

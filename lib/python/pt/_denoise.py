@@ -4,17 +4,16 @@ import ctypes
 import importlib.util
 import os
 import pathlib
-from dataclasses import replace
-from typing import Final
+from collections.abc import Callable, Sequence
+from typing import Any, Final
 
 import numpy as np
 import numpy.typing as npt
 
 from pt import _structs as structs
-from pt._camera import RenderSettings
-from pt._image import Image
+from pt._callbacks import CallbackGuard
 from pt._library import checked, library
-from pt._stats import ErrorEstimate, Stats, error_estimate_of
+from pt._stats import ErrorEstimate, error_estimate_of
 from pt._text import c_string
 
 Pixels = npt.NDArray[np.float32]
@@ -40,14 +39,43 @@ def denoise(first: npt.ArrayLike, second: npt.ArrayLike, albedo: npt.ArrayLike, 
     if len(shape) != 3 or shape[2] != 3 or any(image.shape != shape for image in images):
         raise ValueError(f"shapes = {[image.shape for image in images]}: must all be (height, width, 3)")
     result = np.empty(shape, np.float32)
-    path = find_library() if library_path is None else os.fspath(library_path)
-    pointers = [image.ctypes.data_as(ctypes.POINTER(ctypes.c_float)) for image in (*images, result)]
-    info = structs.pt_denoise_info(
-        width=shape[1], height=shape[0], any_device=any_device, library=c_string(path),
-        **dict(zip(("first", "second", "albedo", "normal", "denoised"), pointers)))
+    info = structs.pt_denoise_info(width=shape[1], height=shape[0], any_device=any_device, denoised=_pointer(result),
+                                   library=c_string(find_library() if library_path is None else os.fspath(library_path)))
+    _set_images(info, images)
     error, loaded = structs.pt_error_estimate(), library()
     checked(loaded, loaded.pt_denoise(info, error))
     return result, error_estimate_of(error)
+
+
+def denoise_rounds(render: Callable[[int], Sequence[Pixels] | None], shape: tuple[int, ...], samples: int,
+                   target_error: float) -> tuple[Pixels, ErrorEstimate]:
+    """`render(count)` returns the images of denoise(), which must stay alive, or None to stop."""
+    result, guard = np.empty(shape, np.float32), CallbackGuard()
+    info = structs.pt_denoise_info(width=shape[1], height=shape[0], denoised=_pointer(result), library=c_string(find_library()))
+
+    def add_round(_: object, count: int) -> int:
+        info.first = None  # The library refuses a round that raises.
+        images = render(count)
+        if images is not None:
+            _set_images(info, images)
+        return int(images is None)
+
+    guard.watch(add_round)
+    rounds = structs.pt_rounds_info(sample_count=samples, target_error=target_error, render=structs.pt_round_fn(add_round))
+    error, loaded = structs.pt_error_estimate(), library()
+    with guard:
+        ended = loaded.pt_denoise_rounds(rounds, info, error)
+    guard.raise_caught()
+    checked(loaded, ended)
+    return result, error_estimate_of(error)
+
+
+def _pointer(image: Pixels) -> Any:
+    return image.ctypes.data_as(ctypes.POINTER(ctypes.c_float))
+
+
+def _set_images(info: structs.pt_denoise_info, images: Sequence[Pixels]) -> None:
+    info.first, info.second, info.albedo, info.normal = map(_pointer, images)
 
 
 def find_library() -> str | None:
@@ -57,15 +85,3 @@ def find_library() -> str | None:
         if path.exists():
             return str(path)
     return None
-
-
-def joined_halves(parts: list[tuple[Pixels, Stats, Pixels | None]], guides: tuple[Pixels, ...], settings: RenderSettings) -> Image:
-    (first, of_first, coverage), (second, of_second, other_coverage) = parts
-    if coverage is not None and other_coverage is not None:
-        coverage = (coverage + other_coverage) / 2
-    radiance, error = denoise(first, second, *guides)
-    summed = ("sample_count", "max_sample_count", "mean_sample_count", "rejected_samples")
-    stats = replace(of_second, **{name: getattr(of_first, name) + getattr(of_second, name) for name in summed})
-    counts = np.full((*first.shape[:2], 1), stats.sample_count)
-    return Image(radiance, np.abs(first - second) / 2, counts, error, stats, raw=(first + second) / 2,
-                 sampler=settings.sampler, estimator=settings.estimator, coverage=coverage)

@@ -37,7 +37,6 @@ PARAMETERS: Final[dict[str, list[Any]]] = {
     "pt_get_stats": [c_void_p, POINTER(structs.pt_stats)],
     "pt_get_error_estimate": [c_void_p, POINTER(structs.pt_error_estimate)],
     "pt_next_check": [c_uint32],
-    "pt_next_round": [c_uint32],
     "pt_save_film": [c_void_p, c_void_p, POINTER(c_uint64)],
     "pt_add_film": [c_void_p, c_char_p, c_uint64],
     "pt_open_film": [c_char_p, c_uint64, POINTER(c_void_p)],
@@ -57,10 +56,11 @@ PARAMETERS: Final[dict[str, list[Any]]] = {
     "pt_display": [POINTER(structs.pt_display_info)],
     "pt_automatic_exposure": [POINTER(c_float), c_uint64, POINTER(c_double)],
     "pt_denoise": [POINTER(structs.pt_denoise_info), POINTER(structs.pt_error_estimate)],
+    "pt_denoise_rounds": [POINTER(structs.pt_rounds_info), POINTER(structs.pt_denoise_info), POINTER(structs.pt_error_estimate)],
 }
 NOT_RESULTS: Final[dict[str, Any]] = {
     "pt_version": c_uint32, "pt_result_name": c_char_p, "pt_last_error": c_char_p, "pt_get_broken_rule": c_uint64,
-    "pt_destroy": None, "pt_next_check": c_uint32, "pt_next_round": c_uint32, "pt_close_film": None,
+    "pt_destroy": None, "pt_next_check": c_uint32, "pt_close_film": None,
 }
 
 

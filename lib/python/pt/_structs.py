@@ -9,6 +9,7 @@ pt_progress_fn = ctypes.CFUNCTYPE(c_int32, c_void_p, c_double)
 pt_log_fn = ctypes.CFUNCTYPE(None, c_void_p, c_int32, c_char_p)
 pt_load_kernels_fn = ctypes.CFUNCTYPE(c_uint64, c_void_p, c_char_p, c_void_p, c_uint64)
 pt_store_kernels_fn = ctypes.CFUNCTYPE(None, c_void_p, c_char_p, c_void_p, c_uint64)
+pt_round_fn = ctypes.CFUNCTYPE(c_int32, c_void_p, c_uint32)
 pt_take_bytes_fn = ctypes.CFUNCTYPE(c_int32, c_void_p, c_void_p, c_uint64)
 
 
@@ -114,6 +115,11 @@ class pt_denoise_info(Sized):
     _fields_ = [("struct_size", c_uint32), ("width", c_uint32), ("height", c_uint32), ("any_device", c_uint32),
                 ("first", POINTER(c_float)), ("second", POINTER(c_float)), ("albedo", POINTER(c_float)),
                 ("normal", POINTER(c_float)), ("denoised", POINTER(c_float)), ("library", c_char_p)]
+
+
+class pt_rounds_info(Sized):
+    _fields_ = [("struct_size", c_uint32), ("sample_count", c_uint32), ("target_error", c_double),
+                ("time_limit", c_double), ("render", pt_round_fn), ("render_user", c_void_p)]
 
 
 class pt_device_info(ctypes.Structure):
