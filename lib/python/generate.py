@@ -1,6 +1,5 @@
-"""Generates Python's structs and enumerations (pt/_structs.py, pt/_enums.py), the kernels' numbers
-(shaders/enumerations.h) and the value names of scene files and the program (lib/scene_file/enumerations.h) from the C
-headers, and Python's table of sphere columns from lib/scene/sphere_columns.h.
+"""Generates structs, enumerations, the kernels' numbers and the names of values from the C headers, and Python's sphere
+columns from lib/scene/sphere_columns.h.
 
 Usage: python3 lib/python/generate.py [HEADERS [ROOT]]. The generated files are committed, because the package is
 installed without headers.
@@ -36,7 +35,7 @@ ENUMERATIONS = (
                                  "four."),
 )
 
-# For each prefix, the program's table, and the separator between the words of a value's name.
+# The program's table of each prefix, and the separator between the words of a value's name.
 OF_PROGRAM = {"PT_SAMPLER_": ("samplers", "-"), "PT_SAMPLING_": ("samplings", "-"), "PT_ESTIMATOR_": ("estimators", "-"),
               "PT_PROJECTION_": ("projections", "-"), "PT_CURVE_": ("curves", "-"), "PT_FEATURE_": ("features", "_"),
               "PT_UNCERTAIN_": ("uncertainties", "_")}

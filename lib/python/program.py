@@ -1,6 +1,6 @@
 #!python
-"""The command pt of a wheel. It replaces itself by the package's program, without importing NumPy. The PATH gets this
-script's folder, so that pt finds the wheel's other commands."""
+"""The command pt of a wheel replaces itself by the package's program, without importing NumPy. This script's folder joins
+PATH, so that pt finds the wheel's other commands."""
 import importlib.util
 import os
 import sys

@@ -47,7 +47,7 @@ lit = context.render(scene, camera, pt.RenderSettings(*SIZE), samples=256, targe
 lit.save("lamp.png")
 print(f"\n{lit}")
 
-# %% Half of the samples here and half elsewhere: films can be added.
+# %% Films can be added: half of the samples here, half elsewhere.
 
 halves = []
 for first in 0, 8:

@@ -2,12 +2,12 @@
 
     import pt
     image = pt.render(positions, radii, colors)   # NumPy arrays: (n, 3), (n,), (n, 3)
-    image.save("picture.png")                     # or leave it as the last line of a notebook's cell
+    image.save("picture.png")
 
 A Context takes a Scene, a Camera and RenderSettings. It accumulates samples and returns the image.
 
-World: right-handed; lengths in scene units, angles in radians, times in [0, 1]. Colors are linear RGB radiance. Row 0 of
-an image is the top row.
+Coordinates are right-handed. Lengths are in scene units, angles in radians, times in [0, 1]. Colors are linear RGB
+radiance. Row 0 of an image is the top row.
 
 The library comes from PT_LIBRARY, else from the installed package, else from the system (libpt.so.0.4).
 """

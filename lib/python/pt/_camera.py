@@ -16,9 +16,9 @@ from pt._vectors import Vector, vector
 
 @dataclass(frozen=True)
 class Camera:
-    """A pinhole, a thin lens (with an aperture) or parallel rays. Lengths are in scene units.
+    """A pinhole, a thin lens (with an aperture) or parallel rays.
 
-    position          parallel rays start on the plane through it, across the view
+    position          parallel rays start on the plane through it that is perpendicular to them
     target            middle of the image; must differ from position
     up                must not be parallel to the viewing direction
     vertical_fov      full angle in radians, in [1e-8, pi); default pi / 4; None with parallel rays
@@ -26,7 +26,7 @@ class Camera:
     vertical_extent   full height of the view with parallel rays, in [1e-18, 1e18]
     aperture          diameter of the lens, at most twice the focus; 0 for a pinhole
     focus             depth of the plane in focus; 0 for the distance of target
-    projection        "perspective" or "orthographic", which is parallel rays; by default orthographic with a vertical_extent
+    projection        "perspective" or "orthographic" (parallel rays); by default orthographic with a vertical_extent
     """
 
     position: Vector
@@ -82,7 +82,7 @@ class Camera:
         return Camera(position=position, target=position - distance * back, up=up, vertical_fov=vertical_fov)
 
     def axes(self) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.float64]]:
-        """Unit vectors: right and up in the image, and from the target to the camera."""
+        """Returns unit vectors: right and up in the image, and from the target to the camera."""
         return _axes(np.subtract(self.position, self.target), self.up)
 
     def _scaled(self, scale: float) -> Camera:
@@ -147,15 +147,13 @@ def _axes(direction: Vector, up: Vector
 
 @dataclass(frozen=True)
 class RenderSettings:
-    """Size of the image, and settings of the sampling.
-
-    width, height     pixels, >= 1
+    """width, height     pixels, >= 1
     max_path_length   surface vertices after the camera, in [1, 1024]; 1 shows emission only
     seed              the same inputs, device, driver and seed give the same bits
     first_sample      index of the first sample; films of different index ranges can be added
-    first_row         first row to render; the rows are read back as an image
+    first_row         first row to render; readback() returns only rendered rows
     row_count         0: all rows from first_row on
-    coverage          whether samples that hit a surface are counted, for Image.coverage and Quantity.COVERAGE
+    coverage          counts samples that hit a surface, for Image.coverage and Quantity.COVERAGE
     """
 
     width: int

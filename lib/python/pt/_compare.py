@@ -28,16 +28,16 @@ class Region:
     difference: tuple[float, float, float]  # mean of the first image minus mean of the second
     deviation: tuple[float, float, float]  # standard deviation of the difference
     probability: float  # upper bound for the probability that equal light shows such a difference in some region of this size
-    smallest_change: float  # smallest relative change of the region's light that is found with 99% probability; infinite if none
+    smallest_change: float  # smallest relative change that is found with 99% probability; infinite if none
 
 
 @dataclass(frozen=True)
 class Comparison:
     light: Light
     probability: float  # upper bound for the probability that equal light shows such differences
-    smallest_change: float  # smallest relative change of all light that is found with 99% probability; infinite if none
-    smallest_tile_change: float  # median over tiles of 32 x 32 pixels of a tile's smallest change
-    rate: float  # limit for probabilities in this test: below it the light differs
+    smallest_change: float  # as in Region, of all light
+    smallest_tile_change: float  # median of smallest_change over tiles of 32 x 32 pixels
+    rate: float  # light with a probability below this limit differs
     summary: str
     regions: tuple[Region, ...]  # the whole picture, then tiles whose sides are halved down to 16 pixels
 
@@ -50,14 +50,13 @@ def compare(first: Film | Image | npt.ArrayLike, second: Film | Image | npt.Arra
     """Tests whether two images show the same light (shaders/README.md, section 11).
 
     first, second   films, images (their raw mean if denoised) or radiance of shape (height, width, 3), equally
-                    large. Changes are relative to the second. Images with the same seed and sampler reveal smaller
-                    changes
+                    large. Changes are relative to the second. The same seed and sampler reveal smaller changes
     rate            probability of calling equal light different; 0: 10^-6
     min_change      Light.UNDECIDED if a relative change of all light by this much may be missed
     look            1, 2, ... for repeated tests of growing images; `rate` then holds for all tests together
 
-    Raises InvalidArgumentError if the tiles have different sample counts (their means are biased) or the sampler is
-    HALTON (its errors are not random), and ValueError for unsuitable shapes."""
+    Raises InvalidArgumentError if tiles have different sample counts (their means are biased) or the sampler is HALTON
+    (its errors are not random), and ValueError for unsuitable shapes."""
     images = [_radiance(each) for each in (first, second)]
     shape = images[0].shape
     if len(shape) != 3 or shape[2] != 3 or images[1].shape != shape:
@@ -74,8 +73,7 @@ def compare(first: Film | Image | npt.ArrayLike, second: Film | Image | npt.Arra
 
 def assert_same_light(first: Film | Image | npt.ArrayLike, second: Film | Image | npt.ArrayLike, *,
                       min_change: float = 0.01, rate: float = 0.0) -> None:
-    """Raises AssertionError with the most different regions if the light differs, or if a relative change of all light by
-    min_change may have been missed. The arguments are as in compare()."""
+    """Raises AssertionError, with the most different regions, if the light of compare() is DIFFERENT or UNDECIDED."""
     comparison = compare(first, second, rate=rate, min_change=min_change)
     if comparison.light in (Light.EQUAL_BITS, Light.SAME):
         return

@@ -35,13 +35,10 @@ class Context:
                           with commas, shares the samples among several devices
     log                   called with level and line during any call
     validation            whether the Khronos validation layer reports to log; UnsupportedError if it is missing
-    scene_kernels         whether kernels may have a scene's numbers as constants; False suits scenes that change in
-                          every frame
+    scene_kernels         whether kernels may have a scene's numbers as constants; False suits scenes that often change
     submit_milliseconds   intended length of a submission, in [1, 1000]; calls can stop after each
     shader_dir            GLSL files that replace the library's kernels (pt/shaders.h); ShaderError if one does not
                           compile
-
-    Use `with` or close(). Otherwise the garbage collector closes the context.
 
     Threads: contexts are independent, and calls release the interpreter's lock. A second concurrent call on a context,
     also from a callback, raises InvalidStateError. After os.fork() a child cannot use its parent's contexts: start
@@ -51,9 +48,8 @@ class Context:
     next callback and raises the exception. The context stays usable. Progress functions get the finished fraction, in
     [0, 1].
 
-    A failed call raises an Error and changes nothing, except that a lost device stays lost and accumulate may keep some
-    samples. A broken rule raises InvalidArgumentError, in scenes InvalidSceneError. Reading an image before the first
-    sample raises InvalidStateError.
+    A broken rule raises InvalidArgumentError, in scenes InvalidSceneError. Reading an image before the first sample
+    raises InvalidStateError.
     """
 
     def __init__(self, device: str | None = None, *, log: Log | None = None, validation: bool = False,
@@ -87,7 +83,7 @@ class Context:
         guard.raise_caught()
 
     def close(self) -> None:
-        """A second call does nothing. Raises InvalidStateError if another call is running."""
+        """Raises InvalidStateError if another call is running."""
         if self._handle is None:
             return
         if self._in_call:
@@ -113,10 +109,8 @@ class Context:
         return device_of(info)
 
     def set_scene(self, scene: Scene, progress: Progress | None = None) -> Result:
-        """Discards all samples. Ten million spheres take some seconds.
-
-        Returns Result.CANCELLED if progress returned True; then nothing has changed. An exception after progress(1) may
-        come too late to stop the call."""
+        """Discards all samples. If progress returns True, returns Result.CANCELLED and changes nothing. An exception
+        after progress(1) may come too late to stop the call."""
         guard = self._guard()
         scene_struct = SceneStruct(scene, guard, progress)
         return self._call("pt_set_scene", scene_struct.struct, guard=guard)
@@ -126,21 +120,17 @@ class Context:
         self._call("pt_set_camera", camera._struct())
 
     def set_render(self, settings: RenderSettings) -> None:
-        """Discards all samples. Takes 112 bytes a pixel of device memory, 116 with coverage. After UnsupportedError or
+        """Discards all samples. Takes 112 bytes of device memory per pixel, 116 with coverage. After UnsupportedError or
         OutOfDeviceMemoryError, render fewer rows at a time."""
         self._call("pt_set_render", settings._struct())
         self._settings = settings
 
     def reload_shaders(self) -> None:
-        """Compiles the files of shader_dir again. Discards the samples if the kernels change.
-
-        Raises ShaderError if a file does not compile; then nothing has changed. Raises InvalidStateError without a
-        shader_dir."""
+        """Compiles shader_dir again. Discards the samples if kernels change. Raises InvalidStateError without shader_dir."""
         self._call("pt_reload_shaders")
 
     def prepare(self) -> None:
-        """Builds the kernels of accumulate. Cannot be interrupted. Raises InvalidStateError if scene, camera or settings
-        are missing."""
+        """Builds the kernels of accumulate. Cannot be interrupted."""
         self._call("pt_prepare")
 
     def accumulate(self, sample_count: int, *, target_error: float = 0.0, sample_limit: int = 0,
@@ -148,9 +138,8 @@ class Context:
         """Adds samples to every pixel.
 
         sample_count   >= 1; with a target error, the most to add
-        target_error   0: none. Otherwise sampling ends with Result.TARGET_REACHED once
-                       ErrorEstimate.relative_rmse_high is at most this value (0.01 is 1%) and there are enough samples
-                       to hit lamps smaller than a pixel
+        target_error   0: none. Otherwise returns Result.TARGET_REACHED once ErrorEstimate.relative_rmse_high is at most
+                       this value (0.01 is 1%) and there are enough samples to hit lamps smaller than a pixel
         sample_limit   with a target error, the most samples of a pixel after this and later calls; 0: after this call
         sampling       by default adaptive with a target error, else uniform
         progress       called about 20 times a second; if it returns True, the call returns Result.CANCELLED and keeps
@@ -164,11 +153,8 @@ class Context:
         return self._call("pt_accumulate", info, guard=guard)
 
     def accumulate_tiles(self, samples: npt.ArrayLike, *, progress: Progress | None = None) -> Result:
-        """Adds samples to some tiles, such as those that Film.plan requests.
-
-        samples   number to add to each pixel of a tile; shape (rows, columns) or flat. Tiles are 8 x 8 pixels from the
-                  top left of the rendered part, smaller at the right and lower edges
-        """
+        """Adds `samples` to each pixel of a tile, for instance by Film.plan. Their shape is (rows, columns) or flat. Tiles
+        are 8 x 8 pixels from the top left of the rendered part, smaller at the right and lower edges."""
         counts = np.ascontiguousarray(samples, dtype=np.uint32).ravel()
         guard = self._guard()
         info = structs.pt_accumulate_info(
@@ -178,7 +164,7 @@ class Context:
 
     def readback(self, quantity: Quantity = Quantity.RADIANCE, *, out: npt.NDArray[Any] | None = None,
                  rectangle: Rectangle | None = None, format: Format = Format.RGB32F) -> npt.NDArray[Any]:
-        """Returns the current image: shape (height, width, 3), float32, row 0 at the top, unless format says otherwise.
+        """Returns the current image, shape (height, width, channels).
 
         quantity    OBJECT needs the format R32UI
         out         receives the pixels and is returned: float32 with 3 or 4 channels, float16 with 4 or uint32 with 1.
@@ -197,7 +183,7 @@ class Context:
         return stats_of(struct)
 
     def warning(self) -> BrokenRule | None:
-        """Names the surface that rounding moves farthest, with advice. None if it moves by at most a pixel in the image."""
+        """Names the surface that rounding moves farthest, with advice. None if it moves by at most a pixel."""
         struct = structs.pt_broken_rule()
         self._call("pt_get_warning", struct)
         return broken_rule_of(struct) if struct.subject else None
@@ -212,9 +198,8 @@ class Context:
         return Film(bytes_from(lambda data, size: self._call("pt_save_film", data, size)))
 
     def add_film(self, film: Film) -> None:
-        """Adds a film of the same scene, camera and settings (first_sample may differ).
-
-        Raises IncompatibleError for another picture or repeated samples."""
+        """Adds samples of the same scene, camera and settings (first_sample may differ). Raises IncompatibleError for
+        another picture or repeated samples."""
         data = film.to_bytes()
         self._call("pt_add_film", data, len(data))
 
@@ -230,8 +215,8 @@ class Context:
         """Sets scene, camera and settings, accumulates samples and returns the image, also after progress returned True.
         A UserWarning has the text of warning().
 
-        denoise   denoises by pt.denoise, from half of the samples with each of two seeds; target_error then applies to
-                  the denoised image
+        denoise   calls pt.denoise for two images, each with half of the samples and its own seed; target_error then
+                  applies to the denoised image
         """
         self.set_scene(scene)
         self.set_camera(camera)

@@ -18,7 +18,7 @@ from pt._text import c_string
 
 Pixels = npt.NDArray[np.float32]
 
-OTHER_SEED: Final = 2**63  # The seeds of the two images differ in this bit.
+OTHER_SEED: Final = 2**63  # the seeds of the two images differ in this bit
 
 
 def denoise(first: npt.ArrayLike, second: npt.ArrayLike, albedo: npt.ArrayLike, normal: npt.ArrayLike, *,
@@ -30,7 +30,7 @@ def denoise(first: npt.ArrayLike, second: npt.ArrayLike, albedo: npt.ArrayLike, 
                     dependent images the stated error is too small
     albedo, normal  Quantity.ALBEDO and NORMAL, of the same shape
     library_path    Open Image Denoise 2; None for the module pyoidn's library, else the system's
-    any_device      whether OIDN_DEFAULT_DEVICE or the library chooses the device, instead of the CPU
+    any_device      uses the device of OIDN_DEFAULT_DEVICE, else the library's choice, instead of the CPU
 
     Raises UnsupportedError if the library is not installed (`pip install pyoidn`), ValueError if shapes differ.
     """

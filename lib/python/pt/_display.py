@@ -1,5 +1,3 @@
-"""Pixels of displays, by libpt (pt/display.h), and PNG files."""
-
 from __future__ import annotations
 
 import ctypes
@@ -26,10 +24,9 @@ def automatic_exposure(radiance: npt.ArrayLike) -> float:
 
 def to_pixels(radiance: npt.ArrayLike, exposure: float | None, dtype: Any = np.uint8, *,
               alpha: npt.ArrayLike | None = None, **display: Any) -> npt.NDArray[Any]:
-    """Returns sRGB signals of radiance. The last axis is R, G, B or, with alpha, R, G, B, A. Radiance is multiplied by alpha.
+    """Returns sRGB signals of type uint8 or uint16. With alpha, radiance is premultiplied, and the last axis is R, G, B, A.
 
     exposure   stops; None: automatic
-    dtype      uint8 or uint16
     display    other properties, as in pt_display_info: curve, gamma, white
     """
     colors = np.ascontiguousarray(radiance, np.float32)
@@ -58,8 +55,8 @@ def linear(signal: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
 
 
 def encode_png(pixels: npt.NDArray[Any], dpi: float | None = None) -> bytes:
-    """Encodes uint8 or uint16 pixels of shape (height, width, 3), or 4 with alpha (W3C, "Portable Network Graphics (PNG)
-    Specification", 2003). dpi: pixels per inch that the file states."""
+    """W3C, "Portable Network Graphics (PNG) Specification", 2003. `pixels` are uint8 or uint16, of shape (height, width, 3)
+    or, with alpha, 4. The file states dpi, in pixels per inch."""
     height, width, channels = pixels.shape
     big_endian = np.ascontiguousarray(pixels, pixels.dtype.newbyteorder(">"))
     unfiltered = np.zeros((height, 1), np.uint8)

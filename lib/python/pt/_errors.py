@@ -14,7 +14,7 @@ class BrokenRule:
     index: int | None  # None outside arrays
     member: str  # "center", or "" for the argument itself
     component: int | None  # None for scalars
-    joined_with: str  # "* height" if the rule concerns the product of width and height, or ""
+    joined_with: str  # "* height" if the rule concerns the product of width and height, else ""
     value: str  # "nan"
     rule: str  # "must be finite"
 
@@ -91,8 +91,6 @@ class IncompatibleError(Error, ValueError):
 
 
 class FileError(Error, OSError):
-    """A file cannot be read."""
-
     result = Result.ERROR_FILE
 
 

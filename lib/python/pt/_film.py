@@ -26,19 +26,19 @@ TILE_SIDE = 8
 
 @dataclass(frozen=True)
 class FilmInfo:
-    width: int  # width of the whole image
+    width: int  # of the whole image
     height: int
-    x: int  # first column of the smallest rectangle around the film's pixels
+    x: int  # left edge of the smallest rectangle around the film's pixels
     y: int
     columns: int  # width of the rectangle
-    rows: int  # height of the rectangle
+    rows: int
     max_path_length: int
     seed: int
     estimator: Estimator
     sampler: Sampler
     lamp_sample_count: int  # samples that a pixel needs to hit all lamps smaller than a pixel; 0 without such lamps
     device: str  # models and drivers
-    coverage: bool  # as in RenderSettings
+    coverage: bool
 
 
 @dataclass(frozen=True)
@@ -56,10 +56,10 @@ class Film:
     """The samples of an image as exact sums. A film needs neither a device nor the scene.
 
     Films with other samples or pixels of the same picture can be added by + or sum() in any order. The result has the
-    bits of one long rendering. Films can be pickled. They are equal if their samples are equal.
+    bits of one long rendering. Films can be pickled.
 
     Film(data) reads the bytes of another film. Untrusted bytes are safe; damaged ones raise IncompatibleError. A film
-    takes 112 bytes a pixel. Concurrent calls wait for one another.
+    takes 112 bytes per pixel. Concurrent calls wait for one another.
     """
 
     def __init__(self, data: bytes) -> None:
@@ -72,17 +72,17 @@ class Film:
 
     @classmethod
     def load(cls, path: Path) -> Film:
-        """Reads a file that save() or pt wrote. Films packed by pt need Python 3.14 or the module zstandard."""
+        """Reads a file of save() or pt. Films packed by pt need Python 3.14 or the module zstandard."""
         with open(path, "rb", opener=regular) as file:
             return cls(file.read())
 
     def save(self, path: Path) -> None:
-        """Writes a file atomically. `pt merge` reads it, too."""
+        """Writes a file atomically, also for `pt merge`."""
         write_atomically(path, lambda file: self.stream(file.write))
 
     def stream(self, write: Callable[[bytes], object]) -> None:
-        """Passes the bytes of to_bytes() to a function in pieces of at most a megabyte, without a second copy in
-        memory. Raises the function's exception."""
+        """Passes the bytes of to_bytes() to a function in pieces of at most a megabyte, without a copy of the film.
+        Raises the function's exception."""
         guard = CallbackGuard()
 
         def take(_: object, data: int, size: int) -> int:
@@ -118,8 +118,7 @@ class Film:
         return self
 
     def __iadd__(self, other: Film) -> Film:
-        """Raises IncompatibleError for another picture or repeated samples; the message has a line for each difference,
-        and nothing has changed."""
+        """Raises IncompatibleError, with a line for each difference, for another picture or repeated samples."""
         if not isinstance(other, Film):
             return NotImplemented
         data = other.to_bytes()
@@ -160,8 +159,8 @@ class Film:
 
     def readback(self, quantity: Quantity = Quantity.RADIANCE, *, out: npt.NDArray[Any] | None = None,
                  rectangle: Rectangle | None = None, format: Format = Format.RGB32F) -> npt.NDArray[Any]:
-        """Returns the rectangle of FilmInfo, with the same bits as Context.readback. Missing pixels are black, and their
-        standard error is infinite."""
+        """Returns the rectangle of FilmInfo, with the bits of Context.readback. Missing pixels are black and have an
+        infinite standard error."""
         with self._lock:
             info = self.info
             shape = info.rows, info.columns
@@ -175,7 +174,7 @@ class Film:
         return stats_of(struct)
 
     def error_estimate(self) -> ErrorEstimate:
-        """Sets Uncertain.UNMET if the estimator hits lamps only by chance: a film does not know the scene's lamps."""
+        """Sets Uncertain.UNMET if the estimator hits lamps only by chance, because a film does not have the scene's lamps."""
         struct = structs.pt_error_estimate()
         self._call("pt_get_film_error_estimate", struct)
         return error_estimate_of(struct)
@@ -189,8 +188,8 @@ class Film:
                          coverage=self.readback(Quantity.COVERAGE) if info.coverage else None)
 
     def plan(self, target_error: float, most: int) -> tuple[Result, npt.NDArray[np.uint32]]:
-        """Plans the next samples towards a target error, as Context.accumulate does. One machine can plan while others
-        take the samples by Context.accumulate_tiles.
+        """Plans the next samples towards a target error, like Context.accumulate. Other machines can take them by
+        Context.accumulate_tiles.
 
         target_error   > 0; 0.01 is 1%
         most           most samples of a pixel
@@ -219,7 +218,7 @@ class Film:
 
 
 def bytes_from(write: Callable[[Any, ctypes.c_uint64], object]) -> bytes:
-    """Lets `write` fill the bytes in place, because a film may take hundreds of megabytes."""
+    """`write` fills the bytes in place, because a film may have hundreds of megabytes."""
     size = ctypes.c_uint64()
     write(None, size)
     allocated = size.value

@@ -32,9 +32,7 @@ class Spin:
 def reach(centers: Array, radii: Array, axes: Doubles, directions: Doubles, spin: Spin | None = None) -> Doubles:
     """The support function of the balls: the maximum of dot(direction, center) + radius for each direction.
 
-    centers      shape (n, 3), n >= 1
-    radii        shape (n,)
-    axes         shape (3, 3); unit vectors in rows
+    axes         unit vectors in rows
     directions   shape (k, 3); unit vectors in the coordinates of the axes
     spin         rotation of the balls; the result covers every angle
     """
@@ -90,8 +88,8 @@ class Extents:
 
 
 def pyramid(tangents: tuple[float, float]) -> Doubles:
-    """Outward unit normals of a perspective's bounding planes, in the view's axes: left, right, bottom, top. The tangents
-    belong to the half angles."""
+    """Returns outward unit normals of a perspective's bounding planes, in the view's axes: left, right, bottom, top. `tangents` belong to
+    the half angles."""
     across, upwards = (1.0 / math.hypot(1.0, tangent) for tangent in tangents)
     sines = tangents[0] * across, tangents[1] * upwards
     return np.array([(-across, 0.0, -sines[0]), (across, 0.0, -sines[0]),
@@ -99,14 +97,11 @@ def pyramid(tangents: tuple[float, float]) -> Doubles:
 
 
 def apex(reaches: Doubles, axes: Doubles, normals: Doubles) -> Doubles:
-    """The nearest pinhole that sees balls with these reaches along the pyramid's normals.
+    """Returns the nearest pinhole that sees balls with these reaches along the pyramid's normals.
 
-    A ball with center c and radius r is in view of the pinhole p if dot(n, p) >= dot(n, c) + r for each outward normal n. All balls are
-    in view if dot(n, p) >= s with the reach s. Let a be the horizontal half angle. The normals are -+cos(a) right
-    - sin(a) forward. Their sum gives dot(forward, p) <= -(s_left + s_right) / (2 sin a). Their difference gives dot(right, p) = (s_right
-    - s_left) / (2 cos a).
-
-
+    All balls are in view of the pinhole p if dot(n, p) >= s for each outward normal n with the reach s. Let a be the horizontal half
+    angle. The normals are -+cos(a) right - sin(a) forward. Their sum gives dot(forward, p) <= -(s_left + s_right) / (2 sin a). Their
+    difference gives dot(right, p) = (s_right - s_left) / (2 cos a).
     """
     right, above, forward = axes
     low, high = -reaches[0::2], -reaches[1::2]

@@ -14,16 +14,15 @@ from pt._stats import ErrorEstimate, Stats
 class Image:
     """A finished image of shape (height, width, 3). np.asarray(image) is the radiance.
 
-    radiance         mean of the samples, linear RGB, float32, unclamped, >= 0, row 0 at the top
-    standard_error   standard error of each number; a rough hint for a single pixel, infinite with up to 8 samples
+    radiance         mean of the samples, linear RGB, float32, unclamped, >= 0
+    standard_error   a rough hint for a single pixel, infinite with up to 8 samples
     sample_count     shape (height, width), uint32
     error_estimate   for the whole image
-    stats            counts and costs
-    exposure         stops for _repr_png_ and save; None: automatic
-    coverage         the picture's alpha, shape (height, width), float32: the fraction of samples that hit a surface; None
-                     without RenderSettings.coverage
-    raw              for a denoised image the mean of the samples, to which standard_error belongs; else None
-    sampler, estimator   of the settings; BEST also if unknown
+    exposure         stops; None: automatic
+    coverage         alpha, shape (height, width), float32: the fraction of samples that hit a surface; None without
+                     RenderSettings.coverage
+    raw              mean of a denoised image's samples, to which standard_error belongs; else None
+    sampler, estimator   BEST if unknown
     """
 
     def __init__(self, radiance: npt.NDArray[np.float32], standard_error: npt.NDArray[np.float32],
@@ -48,7 +47,7 @@ class Image:
 
     @property
     def error(self) -> float:
-        """Relative root mean square error; 0.01 is 1%. Infinite below 16 samples."""
+        """Relative root mean square error; 0.01 is 1%; infinite below 16 samples."""
         return self.error_estimate.relative_rmse
 
     @property
@@ -77,15 +76,15 @@ class Image:
                 f"error {self.error:.3g} ({low:.3g} to {high:.3g})>")
 
     def to_srgb8(self, exposure: float | None = None, **display: Any) -> npt.NDArray[np.uint8]:
-        """Returns the sRGB picture, shape (height, width, 3), like pt: radiance times 2^exposure, clamped to [0, 1].
+        """Returns the sRGB picture, shape (height, width, 3).
 
-        exposure   defaults to the image's exposure, else brings the average to middle grey, 0.18
-        display    curve (a Curve), gamma (in place of sRGB's curve) and white (R, G, B of light that is shown as grey)
+        exposure   stops; by default the image's exposure, else the one that brings the average to middle grey, 0.18
+        display    curve (a Curve), gamma (instead of sRGB's curve) and white (R, G, B of light that is shown as grey)
         """
         return to_pixels(self.radiance, self.exposure if exposure is None else exposure, **display)
 
     def save(self, path: Path, *, exposure: float | None = None) -> None:
-        """Writes the picture of to_srgb8 (.png) or the radiance (.npy) atomically. Raises ValueError for another ending."""
+        """Writes the picture (.png) or the radiance (.npy) atomically. Raises ValueError for another ending."""
         if format_of(path, ("png", "npy")) == "npy":
             write_atomically(path, lambda file: np.save(file, self.radiance, allow_pickle=False))
         else:

@@ -73,8 +73,8 @@ def library_path() -> str:
 
 
 def load_library(path: str) -> ctypes.CDLL:
-    """The functions release the interpreter's lock. Raises ImportError if the library is missing or has other structs. A function that an
-    older build lacks raises AttributeError when called."""
+    """Raises ImportError if the library is missing or has other structs. A function that an older build lacks raises AttributeError when
+    called."""
     try:
         loaded = ctypes.CDLL(path)
         for name, parameters in PARAMETERS.items():
@@ -120,8 +120,8 @@ def _broken_rules(loaded: ctypes.CDLL, context: c_void_p | None) -> tuple[Broken
 
 
 def checked(loaded: ctypes.CDLL, result: int, context: c_void_p | None = None) -> Result:
-    """Raises negative results as errors. The library keeps a message until the next call on the context, or without a context until the
-    thread's next call."""
+    """Raises negative results as errors. The library keeps a message until the next call on the context or, without a context, on the
+    thread."""
     if result >= 0:
         return Result(result)
     message = _text(loaded.pt_last_error(context))

@@ -17,14 +17,13 @@ from pt._vectors import Color, Vector, color, vector
 
 @dataclass(frozen=True)
 class Material:
-    """The physically normalised Phong model of pt/pt.h. A color is linear R, G, B, each in [0, 1e18], or one number for
-    grey.
+    """The physically normalised Phong model of pt/pt.h. A color is linear R, G, B, each in [0, 1e18], or one number.
 
     diffuse      fraction of the light that is reflected diffusely
     specular     weight of the lobe about the mirror direction
     emission     radiance, in every direction and on both sides
     glossiness   exponent of the lobe, in [0, 1e9]
-    hidden_from_camera   whether camera rays (only these) pass through
+    hidden_from_camera   whether camera rays pass through, and no other rays
     """
 
     diffuse: Color = 0.0
@@ -56,7 +55,7 @@ MaterialOrIndex: TypeAlias = "Material | int"
 
 @dataclass(frozen=True)
 class Sphere:
-    """A ball. Both sides are visible, reflect and emit. Lengths are in scene units.
+    """A ball. Both sides are visible, reflect and emit.
 
     center     position at time 0
     radius     > 0
@@ -93,21 +92,20 @@ class Plane:
 
 
 class SphereArray:
-    """Many spheres from NumPy arrays. Each set_scene reads the arrays anew. Lengths are in scene units.
+    """Many spheres from NumPy arrays, which each set_scene reads anew.
 
     center     shape (n, 3), at time 0
     radius     shape (n,), or one number for all; > 0
     material   a Material or an index in Scene.materials for all, or indices of shape (n,)
-    motion     shape (n, 3) or (3,): displacement from time 0 to time 1; none by default
-    color      shape (n, 3) or (3,), times the material's diffuse: linear floats in [0, 1], or sRGB in uint8; 1 by
-               default
+    motion     shape (n, 3) or (3,): displacement from time 0 to time 1
+    color      shape (n, 3) or (3,): linear floats in [0, 1], or sRGB in uint8; multiplies the material's diffuse
     end        shape (n, 3) or (3,): the other center of a capsule, which neither emits nor moves
-    opacity    shape (n,), or one number for all, in [0, 1]: probability that a ray hits the sphere; 1 by default
+    opacity    shape (n,), or one number for all, in [0, 1]: probability that a ray hits the sphere
 
     Native float32, float64, uint32 (indices) and uint8 (colors) are read in place if each row is contiguous and rows
-    ascend at any stride: a[::2], a[:, :3], fields of structured arrays. The constructor copies other arrays; `copied`
-    has their names. Raises ValueError for unsuitable shapes, TypeError for values that are not numbers and for
-    integer colors other than uint8.
+    ascend at any stride, such as a[::2] and a[:, :3]. The constructor copies other arrays; `copied` has their names.
+    Raises ValueError for unsuitable shapes, TypeError for values that are not numbers and for integer colors other
+    than uint8.
     """
 
     center: Array
@@ -144,7 +142,7 @@ class SphereArray:
 @dataclass
 class Scene:
     """materials       list for indices; materials of spheres and planes are appended, each once
-    sphere_arrays   more spheres, for instance one SphereArray for each species
+    sphere_arrays   more spheres, for instance a SphereArray of each species
     """
 
     spheres: Sequence[Sphere] = ()

@@ -1,5 +1,3 @@
-"""Scene files, read by the library libpt-scene."""
-
 from __future__ import annotations
 
 import ctypes
@@ -47,7 +45,7 @@ NOT_RESULTS: Final[dict[str, Any]] = {"pt_close_scene_file": None, "pt_get_colum
 
 @functools.lru_cache(maxsize=1)
 def scene_library() -> ctypes.CDLL:
-    """The library beside libpt, or else the system's. Raises ImportError if it is missing."""
+    """Returns the library beside libpt, else the system's. Raises ImportError if it is missing."""
     beside = pathlib.Path(library_path()).with_name(SONAME)
     path = str(beside) if beside.exists() else SONAME
     try:
@@ -63,10 +61,10 @@ def scene_library() -> ctypes.CDLL:
 
 @dataclass(frozen=True)
 class Override:
-    """A value in place of a file's.
+    """A value that replaces a file's.
 
     setting   path and value, "camera.vertical_fov=30"
-    name      the value's name in messages; None: the setting
+    name      name in messages; None: the setting
     """
 
     setting: str
@@ -75,9 +73,7 @@ class Override:
 
 @dataclass(frozen=True)
 class Display:
-    """How a picture is shown.
-
-    exposure   stops; None: automatic
+    """exposure   stops; None: automatic
     tonemap    curve from radiance to light, one of CURVES
     gamma      encodes with the power 1 / gamma; None: the sRGB curve
     white      R, G, B of light that is shown as grey; None: (1, 1, 1)
@@ -91,10 +87,7 @@ class Display:
 
 @dataclass(frozen=True)
 class SceneFile:
-    """The contents of a scene file.
-
-    samples   samples of a pixel; None if the file has no number
-    """
+    """`samples` is the number per pixel; None if the file has none."""
 
     scene: Scene
     camera: Camera
@@ -105,8 +98,8 @@ class SceneFile:
     _handle: _Handle = field(repr=False, compare=False)
 
     def explained(self, error: Error) -> Error:
-        """Returns the error in the file's words: "scene.json:7: materials.gold.glossiness = -1: must be >= 0". A wrong override gives an
-        InvalidArgumentError."""
+        """Returns the error with the file's lines and names: "scene.json:7: materials.gold.glossiness = -1: must be >= 0". A wrong override
+        gives an InvalidArgumentError."""
         if not error.broken_rules:
             return error
         sources = [self._handle.source(rule) for rule in error.broken_rules]
@@ -118,8 +111,8 @@ def load(path: Path, *, text: str | None = None, overrides: Mapping[str, Any] | 
          frame: int | None = None) -> SceneFile:
     """Reads a scene file and its columns. Arrays are the file's memory and cannot be changed.
 
-    text        the file's contents; path is then only its name, and the folder of its columns
-    overrides   values in place of the file's, {"film.width": 640, "spheres[0].center": [0, 1, 0]}; later ones win
+    text        contents of the file, which is not read; path then gives its name and the folder of columns
+    overrides   values that replace the file's, {"film.width": 640, "spheres[0].center": [0, 1, 0]}; later ones win
     frame       a frame of the file's animation; its number is added to the seed
 
     Raises InvalidSceneError with the file's line, InvalidArgumentError for a wrong override, and FileError."""
@@ -135,7 +128,6 @@ def load(path: Path, *, text: str | None = None, overrides: Mapping[str, Any] | 
 
 
 def scene_schema() -> dict[str, Any]:
-    """The JSON Schema of scene files."""
     text = scene_library().pt_get_scene_schema()
     if text is None:
         raise MemoryError
@@ -196,7 +188,7 @@ class _Handle:
         return SphereArray(**{name: column for name, column in columns.items() if column is not None})
 
     def _column(self, column: structs.pt_column, count: int, length: int) -> Array | None:
-        """Returns a view of the file's memory. The view keeps this object alive."""
+        """Returns a view of the file's memory, which keeps this object alive."""
         if not column.data:
             return None
         dtype = np.dtype(TYPES[ColumnType(column.type)])

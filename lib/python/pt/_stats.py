@@ -15,13 +15,13 @@ class Stats:
     """Fields that only a context knows are 0 for a film."""
 
     sample_count: int  # fewest samples of a pixel
-    max_sample_count: int  # most samples of a pixel (Sampling.ADAPTIVE)
+    max_sample_count: int  # most samples of a pixel
     mean_sample_count: float
     rejected_samples: int  # NaN, infinite, negative or too bright
     features: Feature
-    device_bytes: int  # memory now used on all devices of the context
+    device_bytes: int  # on all devices of the context
     device_count: int
-    device_seconds: float  # sum over submissions
+    device_seconds: float
     submit_count: int  # submissions that took samples
 
 
@@ -34,8 +34,8 @@ def stats_of(struct: structs.pt_stats) -> Stats:
 @dataclass(frozen=True)
 class ErrorEstimate:
     """Errors and bounds with 95% confidence, estimated without a reference. rmse is the root mean square of x - r over
-    pixels and channels, relative_rmse of (x - r) / sqrt(r^2 + 0.01), where x is the image and r its limit. Below 16
-    samples lower bounds are 0 and other values infinite.
+    pixels and channels, with the image x and its limit r. relative_rmse uses (x - r) / sqrt(r^2 + 0.01) instead. Below
+    16 samples lower bounds are 0 and other values infinite.
     """
 
     rmse: float  # in units of radiance
@@ -58,7 +58,7 @@ class DeviceInfo:
     name: str
     kind: DeviceKind
     driver: str
-    memory_bytes: int  # size of the largest memory heap that kernels can access quickly
+    memory_bytes: int  # largest memory heap that kernels can access quickly
     uuid: uuid.UUID  # same after a reboot; differs between devices of one model
     suitable: bool  # whether a Context can use the device
     reason: str

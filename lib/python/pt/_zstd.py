@@ -16,7 +16,7 @@ def module() -> Any:
 
 
 def packer(size: int) -> Any:
-    """Returns an object with compress(piece) and flush(), or None without a module. The frame states the size of its contents, as film
+    """Returns an object with compress(piece) and flush(), or None without a module. The frame states the size of its contents, which film
     readers require."""
     found = module()
     if found is None:

@@ -6,7 +6,7 @@
         result = farm.render(client, farm.Job(scene, camera, settings), 1000, target_error=0.01)
     result.film.image().save("picture.png")
 
-pt-farm renders scene files. lib/python/FARM.md describes failures, equal bits and trust.
+lib/python/FARM.md describes failures, equal bits and trust.
 """
 
 from pt.farm._job import Job

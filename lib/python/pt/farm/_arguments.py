@@ -43,7 +43,7 @@ def _size(text: str) -> list[Override]:
 
 
 def _add_scene_options(command: argparse.ArgumentParser) -> None:
-    """The options of `pt render` that set values of scene files. --set comes first, so that the others replace its values."""
+    """--set comes first, so that other options replace its values."""
     group = command.add_argument_group("as of pt render")
     settings: dict[str, Any] = {"dest": "overrides", "action": "extend", "default": []}
     group.add_argument("--set", action="extend", default=[], type=lambda text: [Override(text)], metavar="PATH=VALUE")

@@ -45,7 +45,7 @@ def cluster(arguments: argparse.Namespace) -> Iterator[Any]:
                                      require_encryption=True)
         try:
             client = dask.Client(arguments.scheduler, security=security)
-        except (OSError, ValueError, TypeError) as error:  # TypeError comes from tls:// without certificates.
+        except (OSError, ValueError, TypeError) as error:  # TypeError comes from tls:// without certificates
             refuse(f"--scheduler {arguments.scheduler}: {error}", NO_DEVICE)
         with client:
             yield client

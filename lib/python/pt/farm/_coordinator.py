@@ -25,7 +25,7 @@ from pt.farm._workers import MOST_FETCHED, Member, Try, now, submit
 TICK = 0.25
 SLOTS = 2  # parts per worker: one is rendered while another is transferred
 
-# Numbers of tiles that keep a device busy: on a CPU 4 for each of 16 cores, on a GPU 262,144 pixels.
+# Tiles that keep a device busy: on a CPU 4 for each of 16 cores, on a GPU 262,144 pixels.
 LEAST_TILES = {True: 64, False: 4096}
 LEAD = 0.05
 LATE = 3.0
@@ -39,7 +39,7 @@ class _Opened(NamedTuple):
 
 
 class Coordinator:
-    """`final` is the number of samples per pixel at the end, or 0 while this is undecided."""
+    """`final` is the final number of samples per pixel, or 0 while this is undecided."""
 
     def __init__(self, client: Any, job: Job, options: Options,
                  show: Callable[[Progress, Film | None], object], final: int) -> None:
@@ -74,8 +74,8 @@ class Coordinator:
 
 
     def run(self, goals: Goals, more: Callable[[], Goals | None] = lambda: None) -> bool:
-        """Returns False if progress() stopped the work. `more` returns further goals for tiles without running parts. It is called when all
-        parts are distributed and some have returned."""
+        """Returns False if progress() stopped the work. `more` returns further goals for tiles without running parts, when all parts are
+        distributed and some have returned."""
         first_sample, has_worked = self._job.settings.first_sample, False
         self._goals = goals
         while not self._stopped:
@@ -111,8 +111,7 @@ class Coordinator:
         self._progress.samples_wanted = float((wanted * self._pixels).sum() / self._pixels.sum())
 
     def _seconds_to_ask(self) -> float:
-        """Seconds until `more` is called. A late call plans more tiles together, but must come before a worker is idle. Calls take at most
-        half of the time."""
+        """A late call of `more` plans more tiles together, but must come before a worker is idle. Calls take at most half of the time."""
         if self._waiting or not self._open or not self._has_only or self._progress.parts == self._asked_at:
             return float("inf")
         idle = min((member.busy_until for member in self._crew if member.can_take(SLOTS)), default=float("inf"))
@@ -211,7 +210,7 @@ class Coordinator:
             self._waiting.appendleft((each.number, each.part))
 
     def _may_try(self, member: Member, number: int) -> bool:
-        """A worker that failed gets the part again only if all others failed."""
+        """A worker that failed gets the part again only after all others failed."""
         if any(each.number == number for each in member.tries.values()):
             return False
         tried = self._tries.get(number, [])

@@ -1,5 +1,4 @@
-"""Identity of a film: the lines of its header from `scene` to `device` (lib/film/FORMAT.md). Films with equal identity can
-be added."""
+"""Identity of a film: the lines of its header from `scene` to `device` (lib/film/FORMAT.md). Films with equal identity can be added."""
 
 from __future__ import annotations
 
@@ -33,7 +32,7 @@ def identity_of(data: bytes) -> Identity:
 
 
 def with_models(data: bytes, models: frozenset[str]) -> bytes:
-    """Replaces the models of devices, so that films of mixed devices can be added. Raises ImportError without xxhash."""
+    """Replaces the models of devices, so that films of mixed devices can be added."""
     xxhash = importlib.import_module("xxhash")
     header = _header(data)
     start = header.index(b"\n" + LAST.encode() + b" ") + 1

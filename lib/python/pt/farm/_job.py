@@ -11,9 +11,7 @@ from pt._scene import Scene
 
 @dataclass(frozen=True)
 class Job:
-    """A picture of Python objects, rendered by the library on each worker.
-
-    settings   all rows; first_sample is the first sample of the picture
+    """settings   of all rows
     device     device of each worker, as in pt.Context; None: PT_DEVICE in its environment, else the best
     """
 

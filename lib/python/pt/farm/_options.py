@@ -9,10 +9,7 @@ from pt._files import Path
 
 
 class FarmError(RuntimeError):
-    """The message has the workers' reports. The checkpoint has the returned films.
-
-    result         the library's error, or ERROR_INTERNAL
-    broken_rules   broken rules in a worker's error"""
+    """The message has the workers' reports. The checkpoint has the returned films. `result` is the library's error, or ERROR_INTERNAL."""
 
     def __init__(self, message: str, result: int = enums.Result.ERROR_INTERNAL,
                  broken_rules: tuple[BrokenRule, ...] = ()) -> None:
@@ -23,12 +20,11 @@ class FarmError(RuntimeError):
 
 @dataclass(frozen=True)
 class Options:
-    """Only `mixed` can change the picture.
-
-    part_seconds       duration of a part
-    patience           seconds beyond the expected time until another worker gets the part, too
+    """part_seconds       intended duration of a part
+    patience           seconds beyond the expected time until another worker also gets the part
     most_tries         most failures and lost workers of a part
-    checkpoint         name of a film; rendering resumes from it if it exists; None: no checkpoint
+    checkpoint         film file; rendering resumes from it if it exists
+    checkpoint_every   seconds
     wait_for_workers   seconds without a ready worker until an error
     mixed              whether workers with other devices and drivers may join; the picture then equals one machine's
                        statistically, but not bit by bit. Needs the module xxhash
@@ -49,7 +45,7 @@ class Progress:
 
     seconds: float = 0.0
     samples: float = 0.0  # mean over all pixels
-    samples_wanted: float = 0.0  # final mean, if it is already decided
+    samples_wanted: float = 0.0  # final mean, once it is decided
     error: float = float("inf")
     error_high: float = float("inf")
     workers: int = 0
@@ -59,7 +55,7 @@ class Progress:
     dropped: int = 0
     failed: int = 0
     lost: int = 0
-    forgotten: int = 0  # samples that were lost and are rendered again
+    forgotten: int = 0  # samples that were lost and must be rendered again
     part_bytes: int = 0
     messages: list[str] = field(default_factory=list)
     last_result: int = enums.Result.OK  # the library's result in the last error
@@ -74,12 +70,12 @@ class Progress:
 
 @dataclass(frozen=True)
 class Result:
-    """The film has the bytes of one long rendering."""
+    """`film` has the bytes of one long rendering."""
 
     film: Film
     progress: Progress
 
     @property
     def devices(self) -> tuple[str, ...]:
-        """Models and drivers. Films of several have other bits than one machine's."""
+        """Models and drivers."""
         return tuple(self.film.info.device.split(" and "))

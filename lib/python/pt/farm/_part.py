@@ -14,7 +14,7 @@ Goals = npt.NDArray[np.uint32]
 
 @dataclass(frozen=True)
 class Part:
-    """The samples from first to end - 1 of tiles, which are numbered row by row."""
+    """The samples from first to end - 1 of some tiles, which are numbered row by row."""
 
     first: int
     end: int
@@ -25,7 +25,7 @@ class Part:
         return (self.end - self.first) * len(self.tiles)
 
     def split(self, work: int, least_tiles: int) -> tuple[Part, list[Part]]:
-        """Returns a part of about this work, and the rest. The part has few tiles rather than few samples, because its film is then small."""
+        """Returns a part of about this work, and the rest. The part has few tiles rather than few samples, so that its film is small."""
         samples = self.end - self.first
         if self.work <= work:
             return self, []
@@ -76,7 +76,7 @@ def cells_of(film: Film | None, shape: tuple[int, int]) -> Cells:
 
 
 def missing_parts(cells: Cells, first_sample: int, goals: Goals) -> list[Part]:
-    """Reads only the film, so a checkpoint suffices to resume."""
+    """Depends only on the film, so a checkpoint suffices to resume."""
     wanted: dict[tuple[int, int], list[Indices]] = {}
     for samples, tiles in cells:
         tile_goals = goals.ravel()[tiles]

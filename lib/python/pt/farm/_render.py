@@ -26,11 +26,9 @@ def render(client: Any, job: Job, samples: int, *, target_error: float = 0.0, sa
     client         a distributed.Client
     samples        samples of a pixel; with a target error, the most
     target_error   relative; 0: none. Tiles get the same samples as in Context.accumulate
-    progress       called several times a second with the counts and the film, which it must not change; it ends the
-                   rendering by returning True
+    progress       called several times a second; must not change the film; ends the rendering by returning True
 
-    Raises FarmError if no worker can render. If this process dies, another one
-    can resume from the checkpoint.
+    Raises FarmError if no worker can render.
     """
     if options.mixed:
         try:
@@ -66,7 +64,7 @@ def _counts_to(samples: int) -> Iterator[int]:
 
 def _to_error(coordinator: Coordinator, job: Job, samples: int, target_error: float, sampling: Sampling) -> Result:
     def further() -> Goals | None:
-        """Plans returned tiles while others are running. A tile's plan depends only on its own samples (lib/film/adaptive_rule.h)."""
+        """Plans returned tiles while others run, because a tile's plan depends only on its own samples (lib/film/adaptive_rule.h)."""
         result, planned = coordinator.film.plan(target_error, samples)
         return planned if result == Outcome.PENDING else None
 

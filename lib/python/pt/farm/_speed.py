@@ -1,6 +1,6 @@
 from __future__ import annotations
 
-FIRST_GUESS = 2000.0  # tiles per second, each with one sample per pixel, on a slow core
+FIRST_GUESS = 2000.0  # tiles per second with one sample per pixel, on a slow core
 LEAST_SECONDS = 0.1
 REMEMBERED = 5.0
 BUSY_SHARE = 0.5
@@ -22,8 +22,8 @@ class Speed:
         return work / self.value
 
     def share(self, part_seconds: float, least_seconds: float, remaining: int, all_speeds: float) -> int:
-        """The work of a part that takes part_seconds. Parts shrink near the end with the remaining work (guided self-scheduling:
-        Polychronopoulos and Kuck 1987)."""
+        """Parts take part_seconds, but shrink near the end with the remaining work (guided self-scheduling: Polychronopoulos and Kuck
+        1987)."""
         together = 0.5 * remaining / all_speeds
         return max(int(self.value * max(min(part_seconds, together), least_seconds)), 1)
 

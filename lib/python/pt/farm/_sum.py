@@ -14,7 +14,7 @@ from pt.farm._identity import Identity, identity_of, with_models
 from pt.farm._workers import now
 
 PIXEL_BYTES = 112
-# An addition to a film takes time for each tile, so parts are first added to one another, up to this fraction of a film.
+# Adding to a film takes time for each of its tiles, so parts are first added to one another, up to this fraction of a film.
 BATCH_SHARE = 1 / 32
 SHOW_SHARE = 0.02  # fraction of the time for early additions, which show recent samples
 
@@ -70,7 +70,7 @@ class Sum:
 
 
 def _give_back() -> None:
-    """Returns freed memory to the system. glibc keeps some freed memory for each thread, in total more than a film."""
+    """glibc keeps freed memory for each thread, in total more than a film."""
     with contextlib.suppress(AttributeError, OSError):
         ctypes.CDLL(None).malloc_trim(0)
 

@@ -32,7 +32,7 @@ class Outcome:
 
 
 def fault_of(value: object, seconds: float) -> str:
-    """Returns "" for a good value. A worker may send anything. `seconds` is the time since submission."""
+    """Returns "" for a good value; a worker may send anything. `seconds` is the time since submission."""
     if not isinstance(value, Outcome):
         return f"a value of type {type(value).__name__}"
     for name, kind in (("data", bytes), ("seconds", float), ("is_cpu", bool), ("error", str),

@@ -62,7 +62,7 @@ def addresses(client: Any) -> set[str]:
 
 
 def submit(client: Any, address: str, done: Done, function: Callable[..., Any], *arguments: Any) -> Any:
-    """Calls done in another thread. Fetches the result directly from the worker."""
+    """Fetches the result directly from the worker. Calls `done` in another thread."""
     start = now()
     future = client.submit(function, *arguments, workers=[address], allow_other_workers=False, pure=False, retries=0)
 

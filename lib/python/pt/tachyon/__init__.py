@@ -1,4 +1,4 @@
-"""Tachyon scenes, as VMD and OVITO write them: `pt.tachyon.read` for programs, `pt-tachyon` for the command line."""
+"""Tachyon scenes, as VMD and OVITO write them."""
 
 from pt.tachyon._reader import TachyonScene, read
 

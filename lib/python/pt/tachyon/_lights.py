@@ -10,7 +10,7 @@ from pt._vectors import Triple
 
 FloatArray = npt.NDArray[np.float64]
 
-DEFAULT_RADIUS = 1 / 50  # radius of a light without one, relative to its distance
+DEFAULT_RADIUS = 1 / 50  # radius of a point light's lamp, relative to its distance
 LEAST_RADIUS = 1e-6  # relative to the extent; only a light on a surface would get a smaller lamp
 SUN_DISTANCE = 100.0
 LEAST_SHARE = 1 / 3  # a bright background dims lights at most to this fraction; by taste
@@ -18,14 +18,14 @@ LEAST_SHARE = 1 / 3  # a bright background dims lights at most to this fraction;
 
 @dataclass(frozen=True)
 class Light:
-    """A white matt surface at distance d that faces a light with attenuation (a, b, c) has the radiance color / (a + b d + c d^2)."""
+    """A white matt surface that faces the light at distance d has the radiance color / (a + b d + c d^2) with attenuation (a, b, c)."""
 
     file_place: str
     color: Triple
     place: Triple  # position, or the direction towards a directional light
     is_directional: bool = False
     attenuation: Triple = (1.0, 0.0, 0.0)
-    radius: float = 0.0  # radius of the visible ball; 0 without one
+    radius: float = 0.0  # radius of the visible ball; 0 for a point light
 
 
 @dataclass(frozen=True)
@@ -48,7 +48,7 @@ class Surroundings:
         return float(min(gaps, default=np.inf))
 
     def extent(self, lights: list[Light]) -> float:
-        """The largest distance from the target to a surface other than a plane; always above 0."""
+        """Returns the largest distance from the target to a surface other than a plane, always above 0."""
         reach = np.linalg.norm(np.array([self.centers, self.ends]) - self.target, axis=2).max(axis=0) + self.radii
         places = [np.array(light.place) for light in lights if not light.is_directional] + [self.camera]
         return float(max([float(np.linalg.norm(place - self.target)) for place in places] + reach.tolist()))
@@ -56,8 +56,8 @@ class Surroundings:
 
 def view_target(centers: FloatArray, radii: FloatArray, planes: list[Plane], position: Triple,
                 direction: Triple) -> FloatArray:
-    """The point on the viewing ray nearest to the middle of the spheres' bounding box. Without spheres ahead it is the point
-    on the nearest plane, or the point at distance 1."""
+    """Returns the point on the viewing ray nearest to the middle of the spheres' bounding box. Without spheres ahead,
+    returns the point on the nearest plane, or at distance 1."""
     start = np.array(position)
     way = np.array(direction) / np.linalg.norm(direction)
     distance = 0.0
@@ -74,7 +74,7 @@ def view_target(centers: FloatArray, radii: FloatArray, planes: list[Plane], pos
 
 
 def dimmed(lights: list[Light], background: Triple) -> list[Light]:
-    """Dims lights, because the background of pt gives light, unlike Tachyon's."""
+    """Unlike Tachyon's, pt's background gives light, so lights are dimmed."""
     together = max(map(sum, zip(*(light.color for light in lights))), default=0.0)
     share = max(1.0 - max(background) / together, LEAST_SHARE) if together else 1.0
     return [replace(light, color=(share * light.color[0], share * light.color[1], share * light.color[2]))
@@ -82,11 +82,10 @@ def dimmed(lights: list[Light], background: Triple) -> list[Light]:
 
 
 def lamps_of(lights: list[Light], around: Surroundings) -> tuple[list[Sphere], list[str]]:
-    """Returns a ball for each light, and warnings about lights without one.
+    """Returns a ball for each light, and warnings about omitted lights.
 
-    A white surface at distance d that faces a ball of radius r and radiance L has the radiance L (r / d)^2. L is chosen so that the
-    camera's target gets the light's radiance. A radius is at most half of the distance to the nearest surface and, if visible, to the
-    camera.
+    A white surface that faces a ball of radius r and radiance L at distance d has the radiance L (r / d)^2. L gives such a surface at the
+    camera's target the light's radiance. A radius is at most half of the distance to the nearest surface and, if visible, to the camera.
     """
     extent = around.extent(lights)
     lamps: list[Sphere] = []
@@ -100,7 +99,7 @@ def lamps_of(lights: list[Light], around: Surroundings) -> tuple[list[Sphere], l
         else:
             center = np.array(light.place)
             distance = float(np.linalg.norm(center - around.target))
-            if distance <= LEAST_RADIUS * extent:  # The light is at the target, so its distance from the camera replaces 0.
+            if distance <= LEAST_RADIUS * extent:  # the light is at the target
                 distance = float(np.linalg.norm(center - around.camera))
         room = around.clearance(center)
         if light.radius > 0.0:

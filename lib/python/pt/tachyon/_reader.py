@@ -25,16 +25,14 @@ OTHERS = {
     "START_CLIPGROUP": "a cut through shapes", "INCLUDE": "another file"}
 SECTIONS = ("CAMERA", "BACKGROUND", "FOG", "LIGHT", "DIRECTIONAL_LIGHT", "TEXDEF", "TEXALIAS", "SPHERE", "FCYLINDER",
             "POLYCYLINDER", "PLANE", "SHADER_MODE", "END_SCENE")
-SKY_RADIUS = 1e6  # relative to the extent; a floor then ends less than a pixel below the horizon
+SKY_RADIUS = 1e6  # relative to the extent, so that a floor ends less than a pixel below the horizon
 
 
 @dataclass
 class TachyonScene:
-    """The contents of a file. Tachyon's lights become emitting spheres, and its background becomes a ball around everything.
-
-    scene      one SphereArray of spheres and one of cylinders, each in the order of the file
+    """scene      one SphereArray of spheres and one of cylinders, each in the order of the file
     settings   the file's resolution, otherwise defaults
-    notes      what was left out, with line numbers
+    notes      omitted parts, with line numbers
     """
 
     scene: Scene
@@ -44,24 +42,24 @@ class TachyonScene:
 
 
 def read(path: str | os.PathLike[str], *, leave_out_others: bool = False) -> TachyonScene:
-    """Reads a Tachyon scene file. Lengths stay unchanged. Other values are converted:
+    """Reads a Tachyon scene file and converts its values:
 
-    colors                     linear, unchanged; exposure 0 and gamma 1 show them as Tachyon does
+    lengths, colors            unchanged; exposure 0 and gamma 1 show linear colors as Tachyon does
     left-handed axes           z changes its sign
     ZOOM                       half of the height has the tangent 0.5 / ZOOM; ORTHOGRAPHIC: vertical_extent 1 / ZOOM
     DIFFUSE, SPECULAR > 0      diffuse, and a mirror: specular with the glossiness 1e6
     PHONG p, PHONG_SIZE n,     glossiness n, specular 2 p / (n + 2), which gives the highlight the same brightness
       without SPECULAR
     FCYLINDER, POLYCYLINDER    capsules with round ends; VMD's flat caps (RING) are inside them
-    BACKGROUND                 a ball of this color that lights the scene; none if black. Lights are dimmed by as much,
-                               at most to a third
+    BACKGROUND                 a ball of this color that lights the scene, unless black. Lights are dimmed by as much, at
+                               most to a third
     point light                a lamp that gives the camera's target the same light; visible if it has a radius (RAD),
                                else hidden from the camera, with a radius of a 50th of its distance
     FOG                        left out, with a note
 
-    leave_out_others   whether sections of other kinds are left out and counted in `notes`; otherwise the file is refused
+    leave_out_others   leaves out sections of other kinds and counts them in `notes`; otherwise the file is refused
 
-    Raises ValueError with the line for other contents, OSError for an unreadable file.
+    Raises ValueError with the line, OSError for an unreadable file.
     """
     with open(path, encoding="utf-8", errors="replace", opener=regular) as lines:
         return parse(lines, os.fspath(path), leave_out_others=leave_out_others)

@@ -3,7 +3,7 @@ from __future__ import annotations
 from pt._scene import Material
 from pt.tachyon._words import Words
 
-MIRROR_GLOSSINESS = 1e6  # Tachyon's mirrors are perfect; this lobe is narrower than most pixels
+MIRROR_GLOSSINESS = 1e6  # for perfect mirrors; the lobe is narrower than most pixels
 # Arguments of TEXFUNC's patterns 0 to 10: whether there is a file name, and the names of vectors.
 PLACE = ("CENTER", "ROTATE", "SCALE")
 PATTERNS: tuple[tuple[bool, tuple[str, ...]], ...] = (
@@ -62,7 +62,7 @@ class Textures:
         self._skip_pattern()
         if mirror > 0.0:
             specular, exponent = (mirror, mirror, mirror), MIRROR_GLOSSINESS
-        else:  # the peak is (n + 2) / 2 times the lobe's weight; Tachyon states the peak
+        else:  # Tachyon states the peak, which is (n + 2) / 2 times the lobe's weight
             weight = 2.0 * highlight / (exponent + 2.0)
             red, green, blue = color if is_metal else (1.0, 1.0, 1.0)
             specular = (weight * red, weight * green, weight * blue)

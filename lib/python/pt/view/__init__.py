@@ -2,10 +2,8 @@
 
     from pt.view import View
 
-    view = View("scene.json")   # or data of particles, or a film; a notebook shows it at the end of a cell
+    view = View("scene.json")   # or data of particles, or a film
     print(view.address)
-
-pt-view is the command, which `pt view` runs.
 """
 
 from typing import TYPE_CHECKING, Any
@@ -17,7 +15,7 @@ __all__ = ["View"]
 
 
 def __getattr__(name: str) -> Any:
-    """Imports View on first use, because it needs aiohttp, and the command's --help does not."""
+    """Imports View on first use, because it needs aiohttp, which --help does not."""
     if name != "View":
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     from pt.view._view import View

@@ -1,4 +1,4 @@
-"""Keeps the port and the token of a view in a file, so that its address works again after a restart."""
+"""The port and the token of a view are kept in a file, so that its address works again after a restart."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def new_token() -> str:
 
 
 def kept_address(file: pathlib.Path) -> Address | None:
-    """Returns None for files that another user owns, can read or has replaced by a link."""
+    """Returns None for files that another user owns or can read, and for links."""
     try:
         with open(file, "rb", opener=lambda path, flags: regular(path, flags | getattr(os, "O_NOFOLLOW", 0))) as opened:
             facts = os.fstat(opened.fileno())

@@ -1,5 +1,3 @@
-"""Tests whether an edited kernel shows the same light as the library's."""
-
 from __future__ import annotations
 
 import math
@@ -14,13 +12,13 @@ from pt._enums import Light
 from pt._errors import Error
 from pt._scene import Scene
 
-SHARE: Final = 0.05  # the library's kernel gets this fraction of the edited kernel's time
+SHARE: Final = 0.05  # time for the library's kernel, relative to the edited kernel's
 FIRST_LOOK: Final = 16
 MIN_CHANGE: Final = 0.01
 
 
 class BuiltIn:
-    """Compares the picture of an edited kernel with the library's. `verdict` is empty before the first comparison."""
+    """Tests whether an edited kernel shows the same light as the library's. `verdict` is empty before the first test."""
 
     def __init__(self, device: str | None) -> None:
         self._device = device
@@ -51,8 +49,8 @@ class BuiltIn:
         return self._context is not None and self._count < count
 
     def step(self, edited: Context, count: int, seconds: float, stops: Callable[[float], bool]) -> bool:
-        """Takes samples for SHARE of the edited kernel's seconds, up to `count`. Compares when the samples have doubled, and when both
-        kernels have equally many. Returns whether it compared."""
+        """Takes samples for SHARE of the edited kernel's seconds, up to `count`. Compares when they have doubled, and when both kernels have
+        equally many. Returns whether it compared."""
         if self._context is None:
             return False
         self._owed += SHARE * seconds
@@ -86,7 +84,7 @@ class BuiltIn:
             self._cost = elapsed / taken
 
     def _take(self, found: Comparison) -> None:
-        """A difference remains the verdict, because the rate holds for all comparisons together."""
+        """A difference stays the verdict, because the rate of false ones holds for all comparisons together."""
         self._differs = self._differs or found.light == Light.DIFFERENT
         if found.light == Light.DIFFERENT or not self._differs:
             self.verdict = verdict_of(found)

@@ -9,7 +9,7 @@ STRING_OR_COMMENT: Final = re.compile(r'"(?:[^"\\\n]|\\.)*"|//[^\n]*|/\*.*?\*/',
 
 
 def code_of(path: pathlib.Path) -> str | None:
-    """Returns the text of GLSL or JSON without comments, indentation and empty lines. None if it cannot be read."""
+    """Returns GLSL or JSON without comments, indentation and empty lines, or None if it cannot be read."""
     try:
         text = path.read_text(encoding="utf-8", errors="replace").replace("\\\n", "")
     except OSError:

@@ -53,7 +53,7 @@ def parser() -> argparse.ArgumentParser:
 
 
 def is_of_another(path: pathlib.Path) -> bool:
-    """Whether a folder, or the link to the folder, belongs to another user, who could replace the contents."""
+    """Whether another user, who could replace the contents, owns the folder or a link to it."""
     return hasattr(os, "geteuid") and any(status.st_uid != os.geteuid() for status in (path.lstat(), path.stat()))
 
 
@@ -84,7 +84,7 @@ def address_file(what: str) -> pathlib.Path:
 
 
 def open_browser(address: str) -> IO[str]:
-    """Passes the address in a file that only its user can read, because all users see the arguments of a process."""
+    """Passes the address in a file that only its user can read, because all users see arguments of processes."""
     user_cache().mkdir(parents=True, exist_ok=True)
     file = tempfile.NamedTemporaryFile("w", suffix=".html", dir=user_cache())
     file.write(f'<meta http-equiv="refresh" content="0; url={address}">')

@@ -10,10 +10,8 @@ from pt._command_line import program
 
 
 class Course:
-    """Judges the kernel of a folder of `pt course`, by the program, on a thread of its own.
-
-    state   title, verdict and measurements of the first step that is not right; None while it is judged
-    """
+    """The program judges the kernel in a folder of `pt course`. `state` has title, verdict and measurements of the first wrong step, or
+    is None before the verdict."""
 
     def __init__(self, folder: pathlib.Path, device: str | None, judged: Callable[[], None]) -> None:
         self._command = [program(), "course", "--check", "next", "--shader-dir", str(folder), *(["--device", device] if device else [])]
@@ -24,7 +22,7 @@ class Course:
         self.state: dict[str, Any] | None = None
 
     def check(self) -> None:
-        """Starts a check. Ends an earlier one first."""
+        """Ends an earlier check first."""
         self.close()
         with self._lock:
             self.state = None

@@ -15,16 +15,15 @@ from pt._stats import ErrorEstimate
 
 LAYERS: Final = {"mean": Quantity.RADIANCE, "standard error": Quantity.STANDARD_ERROR, "samples": Quantity.SAMPLE_COUNT,
                  "depth": Quantity.DEPTH, "normal": Quantity.NORMAL, "albedo": Quantity.ALBEDO}
-OF_SAMPLES: Final = 3  # number of layers of samples; the layers after these show first hits of camera rays
+OF_SAMPLES: Final = 3  # number of layers of samples; later layers show first hits of camera rays
 METHODS: Final[dict[str, Any]] = {"sampler": Sampler, "estimator": Estimator}
 
 
 @dataclass(frozen=True)
 class Frame:
-    """
-    pixels   the selected layer, height x width x 3
-    values   layers of samples, for questions about single pixels
-    spoilt   height x width: pixels that lost samples; None: no pixel did
+    """pixels   the selected layer, shape (height, width, 3)
+    values   layers of samples, for values of single pixels
+    spoilt   masks pixels that lost samples; None: no pixel did
     """
 
     number: int
@@ -34,7 +33,7 @@ class Frame:
     spoilt: Array | None = None
 
     def message(self, pixels: bytes, stops: float) -> bytes:
-        """Returns the length of the state, the state as JSON, and the pixels."""
+        """Joins the length of the state, the state as JSON, and the pixels."""
         state = json.dumps({**self.state, "frame": self.number, "stops": stops, "choices": CHOICES}).encode()
         return struct.pack("<I", len(state)) + state + pixels
 

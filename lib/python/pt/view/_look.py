@@ -16,10 +16,10 @@ SIGNALS: Final[dict[str, Any]] = {"exposure": 0.0, "gamma": 1.0}  # numbers in [
 
 
 class Look:
-    """A page's display of the mean; other layers have their own.
+    """A page's display. Only the mean uses `display`; other layers have their own.
 
     display   exposure (a number or "auto"), tonemap, gamma (None: the sRGB curve), white (may be missing)
-    stops     exposure in use; an automatic exposure is not computed while the camera moves
+    stops     current exposure, which is not recomputed while the camera moves
     """
 
     def __init__(self, display: dict[str, Any], stops: float = 0.0) -> None:
@@ -27,13 +27,13 @@ class Look:
         self.stops = stops if self.is_automatic else display["exposure"]
         self._fields = {"curve": Curve[str(display["tonemap"]).upper()], "gamma": display["gamma"] or 0.0,
                         "white": display.get("white") or (0.0, 0.0, 0.0)}
-        self.pixels([0.0, 0.0, 0.0])  # Raises for values that the library refuses.
+        self.pixels([0.0, 0.0, 0.0])  # raises for values that the library refuses
 
     def pixels(self, radiance: npt.ArrayLike) -> Pixels:
         return to_pixels(radiance, self.stops, **self._fields)
 
     def shown(self, frame: Frame) -> bytes:
-        """Returns R, G, B, A."""
+        """Returns pixels as R, G, B, A."""
         pixels, layer = frame.pixels, frame.state["layer"]
         assert pixels is not None
         if layer == "mean":
@@ -56,7 +56,7 @@ class Look:
 
 
 def _greys(values: Array, is_near_bright: bool) -> Array:
-    """Returns greys for numbers between the least and the greatest. Infinite numbers are black."""
+    """Greys go from the least to the greatest number. Infinite numbers are black."""
     finite = np.isfinite(values)
     known = values[finite] if finite.any() else np.zeros(1)
     least, extent = known.min(), np.ptp(known)

@@ -1,5 +1,3 @@
-"""Counts the samples that each pixel of a film left out (lib/film/FORMAT.md)."""
-
 from __future__ import annotations
 
 import re
@@ -15,7 +13,7 @@ REJECTED: Final = 13
 
 
 def rejected_samples(film: Film) -> npt.NDArray[np.uint32]:
-    """Returns an array of the shape height x width."""
+    """Returns the numbers of samples that pixels left out (lib/film/FORMAT.md)."""
     header, body = film.to_bytes().split(b"\n\n", 1)
     lines = header.decode()
     covered = bool(re.search(r"^planes .* covered 1$", lines, re.MULTILINE))

@@ -22,7 +22,7 @@ from pt.view._rejected import rejected_samples
 from pt.view._source import Shown, Source
 from pt.view._trace import Tracer, message_of
 
-MOVING_SECONDS: Final = 0.03  # time for a sample of all pixels while the camera moves
+MOVING_SECONDS: Final = 0.03  # time for one sample of all pixels while the camera moves
 STILL_SECONDS: Final = 0.25
 PUBLISHED_SHARE: Final = 0.03
 LOOK_SECONDS: Final = 0.5
@@ -30,7 +30,7 @@ CODE: Final = (*SHADERS, ".json")
 
 
 class Renderer:
-    """Calls published() with each frame, on the rendering thread."""
+    """Calls published() for each frame, on the rendering thread."""
 
     def __init__(self, source: Source, published: Callable[[Frame], None], *, shader_dir: pathlib.Path | None = None,
                  device: str | None = None, most: int = 65536, size: tuple[int, int] | None = None,
@@ -67,7 +67,7 @@ class Renderer:
         self._thread.start()
 
     def change(self, **changes: Any) -> None:
-        """Accepts camera, moving, size, layer, playing, method (fields of RenderSettings), files (True: check now)."""
+        """`changes` may have camera, moving, size, layer, playing, method (fields of RenderSettings), and files (True: check now)."""
         with self._condition:
             self._changes.update(changes)
             self._condition.notify()
@@ -116,7 +116,7 @@ class Renderer:
                 each.close()
 
     def _runs(self) -> bool:
-        """A stopped picture still gets one sample after a restart."""
+        """A paused picture still gets one sample after a restart."""
         wanted = self._playing or self._moving or not self._count
         is_behind = self._built_in is not None and self._built_in.is_behind(self._count)
         return wanted and (self._count < self._most or is_behind) and "rendering" not in self._faults
@@ -168,7 +168,7 @@ class Renderer:
         return restarts
 
     def _restart(self, context: Context) -> None:
-        """While the camera moves, pixels are so large that the device is fast enough."""
+        """While the camera moves, pixels are large enough for MOVING_SECONDS."""
         pixels = self._settings.width * self._settings.height
         self._scale = 1
         if self._moving and self._rate:
@@ -258,7 +258,7 @@ class Renderer:
         return restarts or bool(edited and not self._context)
 
     def _is_edited(self, path: pathlib.Path) -> bool:
-        """Whether more than comments of the file has changed. Lines of faults may move with comments alone."""
+        """Whether more than comments has changed or, because faults state lines, any text while there are faults."""
         if path.suffix not in CODE:
             return True
         before, self._code[path] = self._code.get(path), code_of(path)

@@ -1,5 +1,3 @@
-"""The page's server."""
-
 from __future__ import annotations
 
 import asyncio
@@ -31,7 +29,7 @@ TYPES: Final = {".html": "text/html", ".css": "text/css", ".js": "text/javascrip
 MOST_SOCKETS: Final = 16
 MOST_BYTES: Final = 2**20
 MOST_PIXELS: Final = 2**24
-IDLE_SECONDS: Final = 10.0  # after this time without a page the view counts as unwatched
+IDLE_SECONDS: Final = 10.0  # a view is unwatched after this time without a page
 NAMES: Final = r"(?:127\.0\.0\.1|localhost|\[::1\])(?::\d{1,5})?"  # host names; a tunnel may change the port
 HEADERS: Final = {
     "Content-Security-Policy": "default-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' blob: data:; base-uri 'none'; "
@@ -54,7 +52,7 @@ class Show(Protocol):
 
 @dataclass
 class Page:
-    """wanted: set when the page asks for a frame."""
+    """`wanted` is set when the page asks for a frame."""
 
     connection: web.WebSocketResponse
     look: Look
@@ -62,11 +60,8 @@ class Page:
 
 
 class Server:
-    """A thread that serves from construction until close().
-
-    show    the picture; set before the first request
-    files   files that the page may read and write, by name
-    """
+    """A thread that serves from construction until close(). `show` must be set before the first request. `files` are the files that the
+    page may read and write, by name."""
 
     def __init__(self, files: Callable[[], dict[str, pathlib.Path]], port: int = 0, token: str | None = None) -> None:
         self.show: Show | None = None
@@ -116,7 +111,7 @@ class Server:
     @web.middleware
     async def _checked(self, request: web.Request, handler: Callable[[web.Request], Awaitable[web.StreamResponse]]
                        ) -> web.StreamResponse:
-        """Refuses requests without the token, and requests by pages of other sites, which have another host name or origin."""
+        """Refuses requests without the token, and pages of other sites, which have another host name or origin."""
         host, origin = request.headers.get("Host", ""), request.headers.get("Origin")
         if not re.fullmatch(NAMES, host) or origin not in (None, f"http://{host}"):
             raise web.HTTPForbidden(text="pt view: this host or origin is refused\n")
@@ -175,7 +170,7 @@ class Server:
         self._news = asyncio.Event()
 
     async def _send(self, page: Page) -> None:
-        """Sends the newest frame when the page asks for one. A slow connection gets fewer frames, not late ones."""
+        """Sends the newest frame when the page asks for one, so that a slow connection gets fewer frames, not late ones."""
         assert self.show
         number, pixels = 0, None
         look: Look | None = None

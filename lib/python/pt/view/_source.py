@@ -25,10 +25,7 @@ from pt.view._code import STRING_OR_COMMENT
 
 @dataclass
 class Shown:
-    """settings   size and method
-    display    exposure (a number or "auto"), tonemap and gamma (None: the sRGB curve)
-    files      files that were read
-    """
+    """`display` has exposure (a number or "auto"), tonemap and gamma (None: the sRGB curve). `files` have been read."""
 
     scene: Scene
     camera: Camera
@@ -41,13 +38,13 @@ class Source(Protocol):
     path: pathlib.Path
 
     def read(self) -> Shown:
-        """Reads the contents anew. Raises Error, ValueError or OSError."""
+        """Raises Error, ValueError or OSError."""
 
     def explained(self, error: Exception) -> str:
-        """Returns the message of an error, with names of keys in the file."""
+        """Returns the error's message, with names of keys in the file."""
 
     def saved(self, camera: Camera) -> tuple[str, bytes]:
-        """Name and contents of a file with the scene and this camera."""
+        """Returns name and contents of a file with the scene and this camera."""
 
 
 class SceneSource:

@@ -1,4 +1,4 @@
-"""Traces one sample of a pixel, by the kernel itself, compiled with its hooks (shaders/trace.glsl)."""
+"""The kernel itself, compiled with its hooks (shaders/trace.glsl), traces one sample of a pixel."""
 
 from __future__ import annotations
 
@@ -21,17 +21,15 @@ from pt.view._code import SHADERS
 
 HOOKS: Final = "trace.glsl"
 HEADER, NUMBER, WORDS, VERTEX, THROUGHPUT, RADIANCE = 1, 2, 3, 4, 5, 6  # kinds of records, as in trace.glsl
-FARTHEST: Final = 1e30  # the library's kernel records a farther vertex if a ray hits nothing
+FARTHEST: Final = 1e30  # for a ray that hits nothing, the library's kernel records a farther vertex
 Doubles = npt.NDArray[np.float64]
 
 
 @dataclass
 class TracedVertex:
-    """
-    number       counts the path's vertices from 1; paths that branch have several vertices of a number
+    """number       counts the path's vertices from 1; vertices of different branches may have the same number
     position     in world coordinates; for parallel rays relative to the plane where they start
-    throughput   of the path to this vertex
-    numbers      drawn since the vertex before
+    numbers      random numbers drawn since the previous vertex
     """
 
     number: int
@@ -42,10 +40,9 @@ class TracedVertex:
 
 @dataclass
 class Trace:
-    """
-    radiance   of the sample
-    numbers    drawn after the last vertex
-    is_whole   False: the picture has too few pixels for all records
+    """radiance   of the sample
+    numbers    random numbers drawn after the last vertex
+    is_whole   False if the picture has too few pixels for all records
     """
 
     radiance: Doubles = field(default_factory=lambda: np.full(3, np.nan))
@@ -55,7 +52,7 @@ class Trace:
 
 
 def kernels() -> pathlib.Path | None:
-    """The folder of the library's kernels, if it is installed."""
+    """Returns the folder of the library's kernels, if it is installed."""
     here = pathlib.Path(__file__).resolve()
     places = (here.parents[1] / "shaders", pathlib.Path(library_path()).resolve().parents[1] / "share/pt/shaders",
               here.parents[4] / "shaders")
@@ -145,7 +142,7 @@ def trace_of(film: Array, camera: Camera) -> Trace:
 
 
 class Projection:
-    """Places of world points in the picture, from (0, 0) at the top left to (1, 1)."""
+    """Places in the picture go from (0, 0) at the top left to (1, 1)."""
 
     def __init__(self, camera: Camera, settings: RenderSettings) -> None:
         right, above, back = camera.axes()
@@ -156,7 +153,7 @@ class Projection:
         self._is_parallel = camera.vertical_fov is None
 
     def line(self, begin: Doubles, end: Doubles) -> list[float] | None:
-        """The visible part of a segment: two places. None if it is behind the camera."""
+        """Returns the two ends of the segment's visible part, or None if it is behind the camera."""
         a, b = (self._axes @ (point - self._position) for point in (begin, end))
         if not self._is_parallel:
             near = 1e-3 * max(a[2], b[2])
@@ -169,7 +166,7 @@ class Projection:
 
 
 def message_of(trace: Trace, camera: Camera, settings: RenderSettings) -> dict[str, Any]:
-    """The trace as JSON, with lines between the vertices. Numbers that are not finite are null."""
+    """Returns the trace as JSON, with lines between vertices. Numbers that are not finite are null."""
     projection = Projection(camera, settings)
     last: dict[int, Doubles] = {}
     vertices, lines = [], []

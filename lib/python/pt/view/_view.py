@@ -27,7 +27,7 @@ class View:
     shader_dir   kernels that replace the library's; the page has an editor for them and for the scene
     port         0 for a free port
     options      options of pt.figure, for particles
-    address_file keeps the address for the next start, readable for its user alone; None: each start has a new address
+    address_file keeps the address for the next start, readable for its user alone
 
     The server listens only on 127.0.0.1. Everybody who knows `address` has full control. A notebook shows the view if
     the browser reaches that port. Raises Error, ValueError or OSError.
@@ -77,7 +77,7 @@ class View:
 
 
 def served(files: Callable[[], dict[str, pathlib.Path]], port: int, address_file: pathlib.Path | None) -> Server:
-    """Another running view may have the kept port; then the address is a new one, and the file stays as it is."""
+    """If another running view has the kept port, the address is new, and the file is unchanged."""
     kept = address_file and kept_address(address_file)
     if not kept:
         server = Server(files, port)
