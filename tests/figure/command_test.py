@@ -13,6 +13,7 @@ import unittest.mock
 import numpy as np
 import pt
 from pt.figures._command import EPILOG, main, numbered, parser, staged
+from pt.figures._movies import write_movie
 from pt.figures._options import Options
 
 if importlib.util.find_spec("matplotlib") is None:
@@ -88,10 +89,21 @@ class Command(unittest.TestCase):
         apart = np.asarray(film.convert("RGB"), int) - np.asarray(image.open(self.folder / "f2.png").convert("RGB"), int)
         self.assertLess(np.abs(apart).mean(), 4)  # a palette of 256 colors
 
+    @unittest.skipUnless(importlib.util.find_spec("imageio_ffmpeg"), "imageio_ffmpeg is not installed")
+    def test_frames_of_mp4(self):
+        colors = np.array([[200, 40, 40], [40, 200, 40], [40, 40, 200]], np.uint8)
+        write_movie(str(self.folder / "f.mp4"), [np.tile(color, (33, 48, 1)) for color in colors])
+        about, *read = importlib.import_module("imageio_ffmpeg").read_frames(str(self.folder / "f.mp4"))
+        self.assertEqual((about["size"], len(read)), ((48, 32), 3))
+        np.testing.assert_allclose([np.frombuffer(each, np.uint8).reshape(-1, 3).mean(axis=0) for each in read], colors, atol=12)
+
     def test_a_camera_of_a_file(self):
         self.call_figure("water.xyz", *SMALL, "--view", "right", "-o", "a.png", "--write-scene", "s.json")
         self.call_figure("water.xyz", *SMALL, "--camera", "s.json", "-o", "b.png")
-        self.call_figure("water.xyz", *SMALL, "-o", "c.png")
+        scene = json.loads((self.folder / "s.json").read_text())
+        scene["camera"]["vertical_fov"] *= 0.5
+        (self.folder / "s.json").write_text(json.dumps(scene["camera"]))
+        self.call_figure("water.xyz", *SMALL, "--camera", "s.json", "-o", "c.png")
         same, other = ((self.folder / name).read_bytes() == (self.folder / "a.png").read_bytes() for name in ("b.png", "c.png"))
         self.assertEqual((same, other), (True, False))
 

@@ -1,12 +1,13 @@
-import io
+import pathlib
 import sys
+import tempfile
 import unittest
 import xml.etree.ElementTree
 
 import numpy as np
 import pt
-from pt.figures import _legend
 from pt.figures._colors import ColorBar, Swatches
+from pt.figures._legend import save_legend
 
 try:
     import matplotlib
@@ -22,9 +23,10 @@ NAMES = Swatches("type", ("a<b>&c", "$x", "Zn"), np.array([[255, 0, 0], [0, 255,
 
 
 def saved(legend, format="svg"):
-    buffer = io.BytesIO()
-    _legend.save(legend, buffer, format)
-    return buffer.getvalue()
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder, f"legend.{format}")
+        save_legend(legend, path)
+        return path.read_bytes()
 
 
 class Files(unittest.TestCase):

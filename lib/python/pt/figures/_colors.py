@@ -3,7 +3,7 @@ from __future__ import annotations
 import colorsys
 import difflib
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Final, TypeAlias
 
@@ -52,6 +52,15 @@ class Swatches:
 
 
 Legend: TypeAlias = "ColorBar | Swatches | None"
+
+
+def joined(legends: Sequence[Legend]) -> Legend:
+    """The first legend, with the names of all."""
+    all_swatches = [legend for legend in legends if isinstance(legend, Swatches)]
+    if not isinstance(legends[0], Swatches):
+        return legends[0]
+    table = {name: color for legend in all_swatches for name, color in zip(legend.names, legend.colors)}
+    return Swatches(legends[0].title, tuple(table), np.array([*table.values()], np.uint8))
 
 
 def srgb(name: str, color: Any) -> RGB:

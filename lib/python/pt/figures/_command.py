@@ -8,7 +8,7 @@ import signal
 import sys
 import time
 from collections.abc import Callable
-from dataclasses import Field, fields
+from dataclasses import Field, fields, replace
 from typing import Any, NoReturn
 
 from pt._command_line import (CODE_OF_RESULT, FILES, INTERNAL, SCENE, SIGNAL, TARGET_MISSED, USAGE, at_least,
@@ -16,12 +16,13 @@ from pt._command_line import (CODE_OF_RESULT, FILES, INTERNAL, SCENE, SIGNAL, TA
 from pt._context import Context
 from pt._errors import Error
 from pt._text import tell
-from pt.figures._accept import frames as read_frames, load
-from pt.figures._figure import LEGENDS, Figure, Staged
+from pt.figures._accept import frames as read_frames
+from pt.figures._figure import Figure, Staged
+from pt.figures._legend import LEGENDS, save_legend
 from pt.figures._movies import MOVIES, check_movie, write_movie
 from pt.figures._options import Options, two
 from pt.figures._picture import PAGES
-from pt.figures._series import frames, turntable
+from pt.figures._series import Panels, frames, sources_of, turntable
 
 EPILOG = """\
 DATA is a simulation, a molecule or a point cloud, in any units. The camera is as close as it can be with all balls in view.
@@ -51,7 +52,8 @@ def parser() -> argparse.ArgumentParser:
     command = argparse.ArgumentParser(
         prog="pt-figure", description="Makes a picture of the particles in a data file.", epilog=EPILOG,
         allow_abbrev=False, formatter_class=argparse.RawDescriptionHelpFormatter)
-    command.add_argument("data", metavar="DATA", help="file of particles; - is standard input")
+    command.add_argument("data", metavar="DATA", nargs="+", help="file of particles; - is standard input; several files become panels, with "
+                         "one camera, scale and range of colors")
     add = command.add_argument_group("output").add_argument
     add("-o", "--output", action="append", default=[], metavar="IMAGE",
         help="may be repeated: .png and .jpg show the figure, .pdf and .svg with words and lines as vectors, .exr has the linear "
@@ -60,6 +62,7 @@ def parser() -> argparse.ArgumentParser:
     add("--png-bits", type=int, choices=(8, 16), default=8)
     add("--legend", metavar="FILE", help="legend of the colors, as .svg, .pdf or .png")
     add("--write-scene", metavar="SCENE", help="scene file for `pt render`, with NPY files beside it")
+    add("--panels", type=lambda text: text.split(","), default=[], metavar="COLUMN,...", help="a panel for each of these colors; all share one range")
     add("--turntable", type=at_least(2, int), metavar="N", help="N pictures of a full turn about the vertical axis; lamps move "
         "with the camera")
     add("--frames", type=typed(two("-", int), "two frames like 0-99"), metavar="A-B", help="a picture of each frame")
@@ -106,12 +109,15 @@ def check(given: argparse.Namespace) -> None:
         refuse("-o, --write-scene or --legend is missing: there is nothing to write")
     if given.turntable and given.frames:
         refuse("--turntable: not with --frames")
+    if (len(given.data) > 1 or given.panels) and (series or given.write_scene):
+        refuse("panels: not with --frames, --turntable or --write-scene")
     if given.trails and not given.frames:
         refuse("--trails: only with --frames")
-    if given.frames and given.data == "-":
+    if given.frames and "-" in given.data:
         refuse("--frames: standard input cannot be read twice")
-    if given.data != "-" and not os.access(given.data, os.R_OK):
-        refuse(f"{given.data}: does not exist or cannot be read", FILES)
+    for each in given.data:
+        if each != "-" and not os.access(each, os.R_OK):
+            refuse(f"{each}: does not exist or cannot be read", FILES)
     if "-" in given.output and (series or not given.output_format):
         refuse("-o -: a series needs files" if series else "-o -: needs --format")
     for path in pictures:
@@ -128,8 +134,9 @@ def check(given: argparse.Namespace) -> None:
             refuse(f"-o {path}: a series needs # signs in the name, for the number")
         if given.background == "transparent" and path.lower().endswith((".jpg", ".jpeg", *MOVIES)):
             refuse(f"--background transparent: -o {path}: {'this format' if is_movie else 'JPEG'} has no alpha; .png has")
-    if wrong := misnamed(files, given.data):
-        refuse(*wrong)
+    for each in given.data:
+        if wrong := misnamed(files, each):
+            refuse(*wrong)
 
 
 class Shown:
@@ -150,12 +157,14 @@ class Shown:
 def staged(given: argparse.Namespace, options: Options) -> Any:
     if given.frames:
         first, last = given.frames
-        return zip(range(first, last + 1), frames(lambda: read_frames(given.data, first, last, **options.reading), options,
+        return zip(range(first, last + 1), frames(lambda: read_frames(given.data[0], first, last, **options.reading), options,
                                                   given.trails))
-    particles = load(given.data, frame=options.frame, model_number=options.model_number, **options.reading)
+    sources = sources_of(given.data, given.panels, options)
+    if len(sources) > 1:
+        return [(None, Panels(sources, options))]
     if given.turntable:
-        return enumerate(turntable(particles, given.turntable, options))
-    return [(None, Staged.of(particles, options))]
+        return enumerate(turntable(sources[0][0], given.turntable, options))
+    return [(None, Staged.of(sources[0][0], replace(options, color=sources[0][1] or options.color)))]
 
 
 def draw(given: argparse.Namespace, options: Options) -> int:
@@ -170,7 +179,7 @@ def draw(given: argparse.Namespace, options: Options) -> int:
                     tell("pt-figure", note)
                     told.add(words)
         if given.legend and not number:
-            each.save_legend(given.legend)
+            save_legend(each.legend, given.legend)
         if given.write_scene and not number:
             each.save_scene(given.write_scene)
         if given.output:
@@ -215,7 +224,7 @@ def main() -> None:
     except Error as error:
         refuse(str(error), CODE_OF_RESULT.get(error.result, INTERNAL))
     except OSError as error:
-        refuse(f"{error.filename or given.data}: {error.strerror or error}", FILES)
+        refuse(f"{error.filename or given.data[0]}: {error.strerror or error}", FILES)
     except (ValueError, TypeError) as error:
         refuse(str(error), SCENE)
     sys.exit(code)

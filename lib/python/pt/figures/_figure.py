@@ -4,6 +4,7 @@ import functools
 import inspect
 import math
 from collections.abc import Callable
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, replace
 from typing import Any, Concatenate, Final, ParamSpec
 
@@ -21,12 +22,12 @@ from pt._fit import Array, Doubles
 from pt._image import Image
 from pt._scene import Scene, SphereArray
 from pt.figures._accept import load
+from pt.figures._colors import Legend
 from pt.figures._compose import compose, lay_over
 from pt.figures._drawn import LEAST_LENGTH, Drawn, prepare
 from pt.figures._files import write_scene
 from pt.figures._framing import narrow_note
 from pt.figures._layout import Layout, View
-from pt.figures._legend import save
 from pt.figures._noise import Noise, squares_of, until_invisible
 from pt.figures._options import Options, described
 from pt.figures._overlay import INK, Overlaid, Shares, line_width, pixels_per_length, rays_per_side, read_shares
@@ -38,30 +39,31 @@ from pt.figures._styles import styled
 
 STEPPED: Final = ("soft", "illustrative")
 LEAST_WIDTH: Final = 16
-LEGENDS: Final = ("svg", "pdf", "png")
 
 
-def view_of(drawn: Drawn, options: Options, turns: bool = False) -> View:
+def view_of(drawn: Drawn, options: Options, turns: bool = False, grid: tuple[int, int] = (1, 1)) -> View:
+    """`grid` has the columns and rows of panels, which share the size."""
     size = options.size
     if options.pixel_width is not None:
-        size = _printed_size(drawn, options, turns)
-    if size is not None and (strip := strip_of(drawn.legend, size[1], options)):
-        size = size[0] - strip, size[1]
-        if size[0] < LEAST_WIDTH:
+        size = _printed_size(drawn, options, turns, grid)
+    if size is not None:
+        strip = strip_of(drawn.legend, size[1], options)
+        if strip + LEAST_WIDTH * grid[0] > size[0] and (strip or grid != (1, 1)):
             raise ValueError(f"size = {options.size}: has no room for particles beside the color bar")
+        size = (size[0] - strip) // grid[0], size[1] // grid[1]
     if options.camera is not None:
         return View.through(options.camera, options.up, size or (1024, 768), drawn.scale)
     return View.of(drawn.balls, options.view, options.up, options.projection, size, turns)
 
 
-def _printed_size(drawn: Drawn, options: Options, turns: bool) -> tuple[int, int]:
+def _printed_size(drawn: Drawn, options: Options, turns: bool, grid: tuple[int, int]) -> tuple[int, int]:
     """The height follows from the shape of the data beside the color bar."""
     assert options.pixel_width is not None
     shape = (1024, 768) if options.camera else View.of(drawn.balls, options.view, options.up, options.projection, None, turns).size
     height = 0
     for _ in range(4):
         strip = strip_of(drawn.legend, height, options) if height else 0
-        height = max(round((options.pixel_width - strip) * shape[1] / shape[0]), LEAST_WIDTH)
+        height = max(round((options.pixel_width - strip) // grid[0] * shape[1] / shape[0]), LEAST_WIDTH) * grid[1]
     return options.pixel_width, height
 
 
@@ -82,6 +84,10 @@ class Staged:
     @staticmethod
     def seen(drawn: Drawn, view: View, options: Options) -> Staged:
         return Staged(drawn, Layout.of(view, view.reaches(drawn.balls), options.style, options.floor), options)
+
+    @property
+    def legend(self) -> Legend:
+        return self.drawn.legend
 
     @functools.cached_property
     def notes(self) -> list[str]:
@@ -113,10 +119,6 @@ class Staged:
 
     def save_scene(self, path: Path) -> None:
         write_scene(path, self.scene, self.layout.camera, self.layout.size, self.options)
-
-    def save_legend(self, path: Path) -> None:
-        format = format_of(path, LEGENDS)
-        write_atomically(path, lambda file: save(self.drawn.legend, file, format))
 
     def _with_look(self, context: Context, settings: RenderSettings, shares: Shares) -> Shares:
         layout, options = self.layout, self.options
@@ -216,10 +218,6 @@ class Figure(Picture, Image):
         else:
             super().save(path, exposure=exposure, bits=bits)
 
-    def save_legend(self, path: Path) -> None:
-        """Writes .svg, .pdf or .png. Raises ValueError if there is no legend."""
-        self._staged.save_legend(path)
-
     def save_scene(self, path: Path) -> None:
         """Writes a scene file for `pt render` and NPY files of the particles, without background, outlines, color bar and seed."""
         self._staged.save_scene(path)
@@ -240,17 +238,29 @@ def _sixteen_bits(options: Options, stage: Any, shares: Shares, light: Array, ra
     return _pixels(light, stage, shares, exposure, np.ones(3) if background is None else background, np.uint16)
 
 
+def context_of(options: Options) -> AbstractContextManager[Context]:
+    if options.context is None:
+        return Context(options.device)
+    return nullcontext(options.context)
+
+
 P = ParamSpec("P")
 
 
 def _with_keywords(make: Callable[P, Options]) -> Callable[Concatenate[Any, P], Figure]:
     def figure(data: Any, /, *args: P.args, **keywords: P.kwargs) -> Figure:
         options = make(*args, **keywords)
+        axes = options.ax
+        if axes is not None:
+            box = axes.get_window_extent()
+            options = replace(options, size=(round(box.width), round(box.height)), dpi=axes.figure.dpi)
         staged = Staged.of(load(data, frame=options.frame, model_number=options.model_number, **options.reading), options)
-        if options.context is not None:
-            return staged.draw(options.context)
-        with Context(options.device) as context:
-            return staged.draw(context)
+        with context_of(options) as context:
+            result = staged.draw(context)
+        if axes is not None:
+            axes.imshow(result.to_srgb8(), aspect="auto")
+            axes.set_axis_off()
+        return result
 
     figure.__doc__ = f"""Renders particles. Camera, light, sizes and colors follow from the data unless options set them.
 

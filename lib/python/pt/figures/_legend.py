@@ -5,6 +5,7 @@ from typing import Any, Final
 
 import numpy as np
 
+from pt._files import Path, format_of, write_atomically
 from pt._fit import Doubles
 from pt.figures._colors import ColorBar, Legend, Swatches
 from pt.figures._errors import module
@@ -12,6 +13,7 @@ from pt.figures._errors import module
 POINTS_PER_INCH: Final = 72.0
 SHEET: Final = 3.0  # inches
 INK: Final = "#222222"
+LEGENDS: Final = ("svg", "pdf", "png")
 
 
 def matplotlib(part: str = "") -> Any:
@@ -61,8 +63,10 @@ def _alone(legend: Legend, height: float, font: float) -> Any:
     return sheet
 
 
-def save(legend: Legend, file: Any, format: str) -> None:
-    write(_alone(legend, 2.4, 10.0), file, format, dpi=200, bbox_inches="tight", pad_inches=0.08)
+def save_legend(legend: Legend, path: Path) -> None:
+    format = format_of(path, LEGENDS)
+    sheet = _alone(legend, 2.4, 10.0)
+    write_atomically(path, lambda file: write(sheet, file, format, dpi=200, bbox_inches="tight", pad_inches=0.08))
 
 
 def write(sheet: Any, file: Any, format: str, **more: Any) -> None:

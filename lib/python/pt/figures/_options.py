@@ -202,6 +202,7 @@ class Options:
                          rule=(lambda seed: 0 <= seed < 2**64, "at least 0 and below 2^64"))
     max_path_length: int = _python(4, "", "as in RenderSettings")
     device: str | None = _samples(None, "NAME", "device, as in pt render")
+    ax: Any = _python(None, "", "axes of matplotlib that get the picture, in their size")
     context: Context | None = _python(None, "", "context for the rendering; its scene and settings are replaced")
     progress: Progress | None = _python(None, "", "called with the finished fraction; returning True ends the sampling early")
 

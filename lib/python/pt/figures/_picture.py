@@ -12,7 +12,7 @@ from pt._files import Path, format_of, write_atomically
 from pt._fit import Doubles
 from pt.figures._colors import Legend, srgb
 from pt.figures._files import encode_jpeg
-from pt.figures._legend import INK, POINTS_PER_INCH, extent_of
+from pt.figures._legend import INK, POINTS_PER_INCH, extent_of, save_legend
 from pt.figures._marks import MARGIN, Page
 from pt.figures._options import Options
 
@@ -50,6 +50,7 @@ class Picture:
     columns: int = 1
     titles: Sequence[str] = ("",)
     formats: Sequence[str] = PAGES
+    legend: Legend = None
 
     @property
     def _options(self) -> Options:
@@ -60,7 +61,7 @@ class Picture:
     def picture_size(self) -> tuple[int, int]:
         height, width = self.figures[0].shape[:2]
         height, width = height * math.ceil(len(self.figures) / self.columns), width * self.columns
-        return self._options.size or (self._options.pixel_width or width + strip_of(self.figures[0].legend, height, self._options), height)
+        return self._options.size or (self._options.pixel_width or width + strip_of(self.legend, height, self._options), height)
 
     def to_srgb8(self, exposure: float | None = None, **display: Any) -> npt.NDArray[np.uint8]:
         """Returns sRGB, shape (height, width, 3), or 4 channels with a transparent background. exposure: stops; None:
@@ -89,7 +90,7 @@ class Picture:
 
     def _page(self, always: bool = False) -> Page | None:
         options, (width, height) = self._options, self.picture_size
-        legend = self.figures[0].legend if options.colorbar else None
+        legend = self.legend if options.colorbar else None
         is_plain = options.scale_bar is None and not (options.axes or any(self.titles) or legend)
         if is_plain and not always and not any(each._staged.drawn.marks for each in self.figures):
             return None
@@ -130,6 +131,10 @@ class Picture:
         """Writes a file atomically. In .pdf and .svg words and lines are vectors over the picture."""
         data = self.encode(format_of(path, self.formats), exposure=exposure, bits=bits)
         write_atomically(path, lambda file: file.write(data))
+
+    def save_legend(self, path: Path) -> None:
+        """Writes .svg, .pdf or .png. Raises ValueError if there is no legend."""
+        save_legend(self.legend, path)
 
     def _repr_png_(self) -> bytes:
         return self.encode("png")

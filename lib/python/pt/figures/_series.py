@@ -2,26 +2,31 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
+from pathlib import PurePath
+from typing import Any
 
 import numpy as np
 
+from pt._context import Context
 from pt._fit import Doubles
+from pt.figures._accept import load
 from pt.figures._bonds import BALL_SHARE
-from pt.figures._colors import ColorBar, Swatches
+from pt.figures._colors import ColorBar, Swatches, joined
 from pt.figures._drawn import Drawn, prepare
-from pt.figures._figure import Staged, view_of
+from pt.figures._figure import Staged, context_of, view_of
 from pt.figures._layout import Layout, View
 from pt.figures._options import Options, Radius
 from pt.figures._particles import Particles
+from pt.figures._picture import Picture
 from pt.figures._radii import covalent_factor
 from pt.figures._styles import styled
 
 
 def frames(read: Callable[[], Iterator[Particles]], options: Options, trails: int = 0) -> Iterator[Staged]:
     """Reads all frames twice, first to choose one view and scale. `trails` is the number of earlier frames in a trail."""
-    options, view, reaches, scale = _common(read(), options)
+    options, view, reaches, scale = _common(((each, {}) for each in read()), options)
     layout = Layout.of(view, reaches, options.style, options.floor)
     past: deque[Particles] = deque(maxlen=trails)
     for particles in read():
@@ -29,19 +34,66 @@ def frames(read: Callable[[], Iterator[Particles]], options: Options, trails: in
         past.appendleft(particles.wrapped() if options.wrap else particles)
 
 
-def _common(trajectory: Iterator[Particles], options: Options) -> tuple[Options, View, Doubles, float]:
+class Panels(Picture):
+    """Figures with one camera, scale and range of colors.
+
+    sources   particles with the column that colors them, or None, and with the title
+    """
+
+    def __init__(self, sources: Sequence[tuple[Particles, str | None, str]], options: Options) -> None:
+        given = [(particles, {"color": column, "title": options.title or " "} if column else {}) for particles, column, _ in sources]
+        self.columns = len(sources) if len(sources) <= 3 else math.ceil(math.sqrt(len(sources)))
+        options, view, reaches, scale = _common(iter(given), options, (self.columns, math.ceil(len(sources) / self.columns)))
+        layout = Layout.of(view, reaches, options.style, options.floor)
+        self.staged = [Staged(prepare(particles, replace(options, **more), scale), layout, options) for particles, more in given]
+        self.titles = [title for *_, title in sources]
+        self.notes = list(dict.fromkeys(note for each in self.staged for note in each.notes))
+        self.legend = joined([each.drawn.legend for each in self.staged])
+
+    def draw(self, context: Context) -> Panels:
+        self.figures = [each.draw(context) for each in self.staged]
+        return self
+
+    @property
+    def error_bounds(self) -> tuple[float, float]:
+        """Of the worst figure."""
+        worst: tuple[float, float] = max((each.error_bounds for each in self.figures), key=lambda bounds: float(bounds[1]))
+        return worst
+
+    def __repr__(self) -> str:
+        return "\n".join(map(repr, self.figures))
+
+
+def panels(data: Sequence[Any], columns: Sequence[str] = (), **options: Any) -> Panels:
+    """Renders a panel for each data set of load() or, with columns, for each column of the only data set. options: as of figure()."""
+    given = Options(**options)
+    with context_of(given) as context:
+        return Panels(sources_of(data, columns, given), given).draw(context)
+
+
+def sources_of(data: Sequence[Any], columns: Sequence[str], options: Options) -> list[tuple[Particles, str | None, str]]:
+    if columns and len(data) > 1:
+        raise ValueError("panels: columns need one data set, or several data sets no columns")
+    loaded = [load(each, frame=options.frame, model_number=options.model_number, **options.reading) for each in data]
+    if columns:
+        return [(loaded[0], column, column) for column in columns]
+    return [(each, None, PurePath(each.name).stem) for each in loaded]
+
+
+def _common(trajectory: Iterator[tuple[Particles, dict[str, Any]]], options: Options, grid: tuple[int, int] = (1, 1)
+            ) -> tuple[Options, View, Doubles, float]:
     view: View | None = None
     reaches: Doubles | None = None
     scale: float | None = None
     bars: list[ColorBar] = []
     names: dict[str, None] = {}
-    for particles in trajectory:
+    for particles, more in trajectory:
         if view is None:
             options = styled(particles, options, particles.notes)
-        drawn = prepare(particles, options, scale)
+        drawn = prepare(particles, replace(options, **more), scale)
         if view is None:
             options = replace(options, radius=_rule(particles, drawn, options))
-            view, scale = view_of(drawn, options), drawn.scale
+            view, scale = view_of(drawn, options, grid=grid), drawn.scale
         options = replace(options, **drawn.settled)
         mine = view.reaches(drawn.balls)
         reaches = mine if reaches is None else np.maximum(reaches, mine)
