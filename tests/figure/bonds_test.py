@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pt
 from pt.figures import _bonds, _neighbours
-from pt.figures._bonds import bonds_of
+from pt.figures._bonds import bonds_of, whole
 from pt.figures._cell import Cell
 from pt.figures._drawn import prepare
 from pt.figures._options import Options
@@ -168,6 +168,25 @@ class BruteForce(unittest.TestCase):
         found = found_in(particles, [[0, 1], [0, 2]])
         np.testing.assert_allclose(found.ways[:, 0], (-0.5, 2.25, 0.5, -2.25))
         self.assertEqual(found_in(particles, [[0, 1], [0, 2]], "none").others.tolist(), [2, 0])
+
+    def test_molecules_are_made_whole(self):
+        """Helices of 30 atoms span several cells. Each keeps the place of its first atom."""
+        turns = 0.9 * np.arange(30)
+        helix = np.stack([np.cos(turns), np.sin(turns), 0.4 * np.arange(30)], axis=1)
+        cell, random = Cell.of([[7, 0, 0], [1, 6, 0], [-2, 1, 5]]), np.random.default_rng(2)
+        order = random.permutation(60)
+        molecules = np.concatenate([helix, helix @ [[0, 0, 1], [1, 0, 0], [0, 1, 0]] + (3.3, 3.3, 3.3)])[order]
+        broken = Particles(molecules + random.integers(-2, 3, (60, 3)) @ cell.vectors, elements=np.full(60, 6, np.uint8), cell=cell).wrapped()
+        place = np.argsort(order)
+        pairs = [[place[i], place[i + 1]] for i in range(59) if i != 29]
+        for bonds, rule in ((Bonds.of(pairs), None), (None, pairs)):
+            drawn = prepare(replace(broken, bonds=bonds), Options(whole=True, bonds=rule, style="particles"))
+            for atoms in (place[:30], place[30:]):
+                root = atoms.min()
+                np.testing.assert_allclose(drawn.centers[atoms] - broken.positions[root], molecules[atoms] - molecules[root], atol=1e-9)
+        self.assertEqual(np.abs(whole(replace(broken, bonds=Bonds.of(pairs, np.zeros((58, 3), int))), Options()).positions - broken.positions).max(), 0)
+        with self.assertRaisesRegex(ValueError, "whole: array has no cell"):
+            prepare(PAIR, Options(whole=True))
 
 
 class Looks(unittest.TestCase):

@@ -88,7 +88,7 @@ class Fit(unittest.TestCase):
             gap = (centers @ np.array(layout.stage.floor.normal) + layout.stage.floor.offset - radii).min()
             self.assertTrue(0 < gap < 1e-3)
             self.assertEqual(layout.stage.floor.normal, normal)
-        with self.assertRaisesRegex(ValueError, "floor: the camera is below it"):
+        with self.assertRaisesRegex(ValueError, "floor: the view puts the camera below it"):
             layout_of(Particles(centers), radius=radii, floor=True, view="bottom")
 
     def test_the_best_view_is_along_the_shortest_axis(self):

@@ -25,15 +25,7 @@ STICK_SHARES: Final = {"space-filling": 0.07, "ball-and-stick": 0.07, "sticks": 
 
 
 def bonds_of(particles: Particles, options: Options, radii: Array, notes: list[str]) -> Rods:
-    rule = _rule(options.bond_rule)
-    if isinstance(rule, np.ndarray):
-        found = _of_pairs(particles, rule)
-    elif rule is None:
-        found = _automatic(particles, notes)
-    else:
-        pairs = pairs_within(particles.positions, rule, particles.cell)
-        apart = pairs.squares > 0.0
-        found = Bonds(np.stack(pairs[:2], 1)[apart], pairs.images[apart])
+    found = _found(particles, options.bond_rule, notes)
     if options.wall_bonds == "none" and found.images is not None:
         found = Bonds(*(each[~found.images.any(axis=1)] for each in (found.pairs, found.images)))
     first, second = found.pairs.T
@@ -41,12 +33,41 @@ def bonds_of(particles: Particles, options: Options, radii: Array, notes: list[s
     if particles.cell is not None and found.images is not None:
         ways += found.images @ particles.cell.vectors
     if not len(first):
-        notes.append("bonds: there are none" if isinstance(rule, np.ndarray) else
+        notes.append("bonds: there are none" if not isinstance(options.bond_rule, (str, int, float)) else
                      f"bonds = {options.bond_rule!r}: no two particles are near enough")
     both = np.concatenate
     ways = 0.5 * both([ways, -ways])
     return Rods(both([first, second]), both([second, first]), ways,
                 options.bond_radius or stick_radius(ways, options.drawn_model, radii))
+
+
+def whole(particles: Particles, options: Options) -> Particles:
+    """Follows the bonds from the first atom of each molecule, without passing walls of the cell."""
+    if particles.cell is None:
+        raise ValueError(f"whole: {particles.name} has no cell")
+    found = _found(particles, True if options.bond_rule is None else options.bond_rule, [])
+    first, second = found.pairs.T
+    images: Array = found.images if found.images is not None else np.zeros((len(first), 3))
+    labels, turns, more = np.arange(len(particles)), np.zeros((len(particles), 3)), True
+    while more:
+        more = False
+        for ends, others, steps in ((first, second, images), (second, first, -images)):
+            lower = np.flatnonzero(labels[ends] < labels[others])
+            labels[others[lower]] = labels[ends[lower]]
+            turns[others[lower]] = turns[ends[lower]] - steps[lower]
+            more |= len(lower) > 0
+    return particles.turned(turns)
+
+
+def _found(particles: Particles, given: Any, notes: list[str]) -> Bonds:
+    rule = _rule(given)
+    if rule is None:
+        return _automatic(particles, notes)
+    if isinstance(rule, np.ndarray):
+        return _of_pairs(particles, rule)
+    pairs = pairs_within(particles.positions, rule, particles.cell)
+    apart = pairs.squares > 0.0
+    return Bonds(np.stack(pairs[:2], 1)[apart], pairs.images[apart])
 
 
 def _rule(bonds: Any) -> float | None | Array:

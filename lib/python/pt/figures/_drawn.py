@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from pt._fit import Array, chunks
-from pt.figures._bonds import among_sticks, ball_radii, bonds_of, meeting_in_sight, models_of
+from pt.figures._bonds import among_sticks, ball_radii, bonds_of, meeting_in_sight, models_of, whole
 from pt.figures._cell import Cell
 from pt.figures._colors import Legend, colors_of
 from pt.figures._framing import drawn_cell, far_away
@@ -83,6 +83,8 @@ def prepare(particles: Particles, options: Options, scale: float | None = None, 
         raise ValueError(f"{particles.name} has no particles")
     if options.wrap:
         particles = particles.wrapped()
+    if options.whole:
+        particles = whole(particles, options)
     if options.repeat is not None:
         particles = repeated(particles, options.repeat, options)
     if options.style == "crystal":

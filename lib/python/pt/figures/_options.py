@@ -97,6 +97,7 @@ class Options:
         None, "A,B,C", "how often the cell is repeated along its edges", read=_three,
         rule=(lambda counts: min(counts) >= 1, "at least 1"))
     wrap: bool = _data(False, "", "moves particles outside a periodic cell back into the cell")
+    whole: bool = _data(False, "", "makes molecules whole across a periodic cell, by their bonds")
 
     color: Color = _particles(
         None, "COLUMN|COLOR|...", "a column of numbers or words; a magnitude, \"|velocity|\" or \"|vx,vy,vz|\"; columns of "

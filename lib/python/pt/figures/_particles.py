@@ -88,13 +88,17 @@ class Particles:
     def wrapped(self) -> Particles:
         if self.cell is None:
             raise DataError(f"wrap: {self.name} has no cell")
-        cell, bonds, positions = self.cell, self.bonds, self.positions.copy()
-        for block in chunks(len(positions)):
-            rows = positions[block]
-            rows -= (cell.turns(rows) @ cell.vectors).astype(rows.dtype)
+        return self.turned(self.cell.turns(self.positions))
+
+    def turned(self, turns: Array) -> Particles:
+        """Moves particles back by numbers of the cell's edges, shape (n, 3)."""
+        assert self.cell is not None
+        bonds, positions = self.bonds, self.positions.copy()
+        for rows in chunks(len(positions)):
+            positions[rows] -= (turns[rows] @ self.cell.vectors).astype(positions.dtype)
         if bonds is not None and bonds.images is not None:
-            first, second = (cell.turns(self.positions[each]) for each in bonds.pairs.T)
-            bonds = dataclasses.replace(bonds, images=bonds.images + second - first)
+            first, second = bonds.pairs.T
+            bonds = dataclasses.replace(bonds, images=bonds.images + turns[second] - turns[first])
         return self._moved(positions, slice(None), bonds=bonds)
 
     def _moved(self, positions: Array, rows: Any, **changed: Any) -> Particles:
