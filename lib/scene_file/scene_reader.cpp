@@ -1,3 +1,4 @@
+#include "lib/scene/view_sizes.h"
 #include "lib/scene_file/json_items.h"
 #include "lib/scene_file/names.h"
 #include "lib/scene_file/scene_keys.h"
@@ -31,15 +32,14 @@ void refuse_unknown_section(const JsonPlace &place) {
 }
 
 void check_projection(const pt_camera &camera, const JsonPlace &place) {
-    const bool orthographic = camera.projection == PT_PROJECTION_ORTHOGRAPHIC;
-    if (orthographic && camera.vertical_fov != 0.0)
+    const ViewSize &own = view_sizes[camera.projection];
+    for (const ViewSize &size : view_sizes)
+        if (&size != &own && camera.*size.value != 0.0)
+            refuse(place, concat('"', size.member, "\" is for ", size.article, ' ', size.projection, " projection, ",
+                                 own.article, ' ', own.projection, " one has a \"", own.member, '"'));
+    if (own.initial == 0.0 && camera.*own.value == 0.0)
         refuse(place,
-               "\"vertical_fov\" is for a perspective projection, an orthographic one has a \"vertical_extent\"");
-    if (orthographic && camera.vertical_extent == 0.0)
-        refuse(place, "\"vertical_extent\" is missing, the height of an orthographic view");
-    if (!orthographic && camera.vertical_extent != 0.0)
-        refuse(place,
-               "\"vertical_extent\" is for an orthographic projection, a perspective one has a \"vertical_fov\"");
+               concat('"', own.member, "\" is missing, the height of ", own.article, ' ', own.projection, " view"));
 }
 
 class SceneReader : public JsonItemHandler {

@@ -3,6 +3,7 @@
 #include "lib/base/digest.h"
 #include "lib/base/rules.h"
 #include "lib/base/scaled_vector.h"
+#include "lib/scene/view_sizes.h"
 #include "lib/view/projection.h"
 
 #include <cmath>
@@ -26,9 +27,7 @@ const char *shutter_rule(double value) {
     return value <= 1.0 ? nullptr : "must be <= 1";
 }
 
-const ProjectionKind *kind_of(std::uint32_t projection) {
-    return projection < std::size(projection_kinds) ? projection_kinds[projection] : nullptr;
-}
+static_assert(std::size(view_sizes) == std::size(projection_kinds));
 
 std::string known_projections() {
     std::string text;
@@ -36,19 +35,27 @@ std::string known_projections() {
         text += (number == 0                                ? ""
                  : number + 1 < std::size(projection_kinds) ? ", "
                                                             : " or ") +
-                std::to_string(number) + " (" + projection_kinds[number]->name + ")";
+                std::to_string(number) + " (" + view_sizes[number].projection + ")";
     return text;
 }
 
-void check_fields(const pt_camera &camera, const ProjectionKind &kind) {
+void check_fields(const pt_camera &camera, const ViewSize &own, const ProjectionKind &kind) {
     Violations violations;
     const Subject subject(violations, "camera");
-    subject.require(kind_of(camera.projection) != nullptr, "projection", camera.projection,
+    subject.require(camera.projection < std::size(projection_kinds), "projection", camera.projection,
                     "must be a PT_PROJECTION_*: " + known_projections());
     subject.check_each("position", camera.position, length_rule);
     subject.check_each("target", camera.target, length_rule);
     subject.check_each("up", camera.up, finite_rule);
-    kind.check_fields(camera, subject);
+    for (const ViewSize &size : view_sizes)
+        if (&size == &own)
+            subject.check(size.member, camera.*size.value, kind.size_rule);
+        else
+            subject.require(camera.*size.value == 0.0, size.member, camera.*size.value,
+                            std::string("must be 0 with ") + own.article + ' ' + own.projection +
+                                " projection, which has a " + own.member + " instead");
+    subject.check("aperture", camera.aperture, kind.lens_rule);
+    subject.check("focus", camera.focus, kind.lens_rule);
     subject.check("shutter_open", camera.shutter_open, shutter_rule);
     subject.check("shutter_close", camera.shutter_close, shutter_rule);
     subject.require(!(camera.shutter_close < camera.shutter_open), "shutter_close", camera.shutter_close,
@@ -59,13 +66,15 @@ void check_fields(const pt_camera &camera, const ProjectionKind &kind) {
 } // namespace
 
 Camera validated_camera(const pt_camera &given) {
-    const ProjectionKind *const known = kind_of(given.projection);
-    const ProjectionKind &kind = known ? *known : perspective;
+    const std::uint32_t known = given.projection < std::size(projection_kinds) ? given.projection : 0;
+    const ViewSize &size = view_sizes[known];
+    const ProjectionKind &kind = *projection_kinds[known];
     pt_camera source = given;
     if (vector(source.up) == glm::dvec3(0.0))
         source.up[1] = 1.0;
-    kind.set_defaults(source);
-    check_fields(source, kind);
+    if (source.*size.value == 0.0)
+        source.*size.value = size.initial;
+    check_fields(source, size, kind);
 
     Violations violations;
     const Subject subject(violations, "camera");

@@ -4,18 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace pt {
 
 namespace {
 
-void check_parallel_fields(const pt_camera &camera, const Subject &subject) {
-    subject.require(camera.vertical_fov == 0.0, "vertical_fov", camera.vertical_fov,
-                    "must be 0 with an orthographic projection, which has a vertical_extent instead");
-    subject.check("vertical_extent", camera.vertical_extent, positive_length_rule);
-    for (const auto &[member, value] : {std::pair("aperture", camera.aperture), std::pair("focus", camera.focus)})
-        subject.require(value == 0.0, member, value, "must be 0 with an orthographic projection, which has no lens");
+const char *no_lens_rule(double value) {
+    return value == 0.0 ? nullptr : "must be 0 with an orthographic projection, which has no lens";
 }
 
 void set_parallel_view(Camera &camera, const pt_camera &source, const Subject &) {
@@ -124,7 +119,7 @@ private:
 
 } // namespace
 
-const ProjectionKind orthographic = {"orthographic", [](pt_camera &) {}, check_parallel_fields, set_parallel_view,
+const ProjectionKind orthographic = {positive_length_rule, no_lens_rule, set_parallel_view,
                                      make_projection<Orthographic>};
 
 } // namespace pt

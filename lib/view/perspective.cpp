@@ -11,8 +11,6 @@ namespace pt {
 
 namespace {
 
-constexpr double default_vertical_fov = std::numbers::pi / 4.0;
-
 // The image plane's distance in pixels, height / (2 tan(fov / 2)), must be at most 1e18, so tan(fov / 2) >= 2^31 / 1e18
 // = 2.1e-9. For angles near pi the distance is at least 1e-16 in doubles.
 constexpr double min_vertical_fov = 1e-8;
@@ -28,19 +26,6 @@ const char *fov_rule(double value) {
 
 const char *lens_rule(double value) {
     return value < 0.0 ? "must be >= 0" : length_rule(value);
-}
-
-void set_perspective_defaults(pt_camera &camera) {
-    if (camera.vertical_fov == 0.0)
-        camera.vertical_fov = default_vertical_fov;
-}
-
-void check_perspective_fields(const pt_camera &camera, const Subject &subject) {
-    subject.check("vertical_fov", camera.vertical_fov, fov_rule);
-    subject.require(camera.vertical_extent == 0.0, "vertical_extent", camera.vertical_extent,
-                    "must be 0 with a perspective projection, which has a vertical_fov instead");
-    subject.check("aperture", camera.aperture, lens_rule);
-    subject.check("focus", camera.focus, lens_rule);
 }
 
 // Systems' tangents differ in the last bits, but films must match, so the tangent is rounded to 40 bits.
@@ -167,7 +152,6 @@ private:
 
 } // namespace
 
-const ProjectionKind perspective = {"perspective", set_perspective_defaults, check_perspective_fields,
-                                    set_perspective_view, make_projection<Perspective>};
+const ProjectionKind perspective = {fov_rule, lens_rule, set_perspective_view, make_projection<Perspective>};
 
 } // namespace pt

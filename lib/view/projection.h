@@ -111,9 +111,8 @@ std::unique_ptr<Projection> make_projection(const Camera &camera, std::uint32_t 
 }
 
 struct ProjectionKind {
-    const char *name; // in messages
-    void (*set_defaults)(pt_camera &camera);
-    void (*check_fields)(const pt_camera &camera, const Subject &subject);
+    Rule size_rule;
+    Rule lens_rule; // of aperture and focus
     // The fields, position and target have been checked.
     void (*set_view)(Camera &camera, const pt_camera &source, const Subject &subject);
     std::unique_ptr<Projection> (*make)(const Camera &camera, std::uint32_t width, std::uint32_t height);
@@ -122,7 +121,7 @@ struct ProjectionKind {
 extern const ProjectionKind perspective;
 extern const ProjectionKind orthographic;
 
-// Indexed by PT_PROJECTION_*.
+// Indexed by PT_PROJECTION_*, like view_sizes.
 inline constexpr const ProjectionKind *projection_kinds[] = {&perspective, &orthographic};
 
 inline std::unique_ptr<Projection> projection_of(const Camera &camera, std::uint32_t width, std::uint32_t height) {

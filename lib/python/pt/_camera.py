@@ -85,6 +85,13 @@ class Camera:
         """Returns unit vectors: right and up in the image, and from the target to the camera."""
         return _axes(np.subtract(self.position, self.target), self.up)
 
+    def _view_height(self, depth: Any) -> Any:
+        """Height of the image at depths. At depth 0 it is 0 if all rays start at a point."""
+        if self.projection == Projection.ORTHOGRAPHIC:
+            return self.vertical_extent
+        assert self.vertical_fov is not None
+        return 2.0 * math.tan(0.5 * self.vertical_fov) * depth
+
     def _scaled(self, scale: float) -> Camera:
         extent = self.vertical_extent
         return replace(self, position=np.multiply(self.position, scale), target=np.multiply(self.target, scale),

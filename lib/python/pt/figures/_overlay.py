@@ -115,10 +115,7 @@ def _first_hits(context: Context, settings: RenderSettings, top: int, bottom: in
 
 
 def pixels_per_length(camera: Camera, height: int, depths: Any) -> Any:
-    if camera.vertical_extent is not None:
-        return height / camera.vertical_extent
-    assert camera.vertical_fov is not None
-    return 0.5 * height / (depths * math.tan(0.5 * camera.vertical_fov))
+    return height / camera._view_height(depths)
 
 
 def _outlines(index: Array, depths: Array, overlaid: Overlaid, pixels: Any, width: float) -> Array:

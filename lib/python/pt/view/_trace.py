@@ -121,7 +121,7 @@ def trace_of(film: Array, camera: Camera) -> Trace:
         raise ValueError("the kernel does not give its samples to traced_sample() (trace.glsl)")
     count = int(words[0, 1])
     _, _, back = camera.axes()
-    origin = np.array(camera.position) - (0.0 if camera.vertical_fov is None else float(words[0, 2:].view(np.float32)[0])) * back
+    origin = np.array(camera.position) - (0.0 if camera._view_height(0.0) else float(words[0, 2:].view(np.float32)[0])) * back
     with np.errstate(invalid="ignore"):
         floats = words.view(np.float32).astype(np.float64)
     trace = Trace(is_whole=count <= len(rows))
@@ -146,22 +146,18 @@ class Projection:
 
     def __init__(self, camera: Camera, settings: RenderSettings) -> None:
         right, above, back = camera.axes()
-        self._position = np.array(camera.position)
-        height = 2.0 * math.tan(0.5 * camera.vertical_fov) if camera.vertical_fov else camera.vertical_extent
-        assert height
-        self._axes = np.array([right / (height * settings.width / settings.height), -above / height, -back])
-        self._is_parallel = camera.vertical_fov is None
+        self._camera, self._position = camera, np.array(camera.position)
+        self._axes = np.array([right * settings.height / settings.width, -above, -back])
 
     def line(self, begin: Doubles, end: Doubles) -> list[float] | None:
         """Returns the two ends of the segment's visible part, or None if it is behind the camera."""
         a, b = (self._axes @ (point - self._position) for point in (begin, end))
-        if not self._is_parallel:
+        if not self._camera._view_height(0.0):
             near = 1e-3 * max(a[2], b[2])
             if not near > 0.0:
                 return None
             a, b = (p if p[2] >= near else p + (q - p) * (near - p[2]) / (q[2] - p[2]) for p, q in ((a, b), (b, a)))
-            a, b = a / a[2], b / b[2]
-        line: list[float] = [*(0.5 + a[:2]).tolist(), *(0.5 + b[:2]).tolist()]
+        line = [float(0.5 + place) for point in (a, b) for place in point[:2] / self._camera._view_height(point[2])]
         return line if all(map(math.isfinite, line)) else None
 
 
