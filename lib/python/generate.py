@@ -1,8 +1,7 @@
-"""Generates structs, enumerations, the kernels' numbers and the names of values from the C headers, and Python's sphere
-columns from lib/scene/sphere_columns.h.
+"""Generates Python's structs, enumerations and sphere columns, the kernels' numbers and the names of values from C headers.
 
-Usage: python3 lib/python/generate.py [HEADERS [ROOT]]. The generated files are committed, because the package is
-installed without headers.
+Usage: python3 lib/python/generate.py [HEADERS [ROOT]]. Generated files are committed, because headers are not installed
+with the package.
 """
 
 import pathlib

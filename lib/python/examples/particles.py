@@ -2,7 +2,7 @@
 
     python3 particles.py [COUNT [WIDTH]]"""
 
-# %% The particles of a simulation. Half of them are warm.
+# %% Particles of a simulation
 
 import pickle
 import sys
@@ -20,18 +20,18 @@ particles["position"] = random.uniform((-2, 0, -1), (2, 1, 1), (COUNT, 3))
 particles["radius"] = 0.6 / np.cbrt(COUNT) * random.uniform(0.5, 1.0, COUNT)
 particles["color"] = np.where(particles["position"][:, :1] > 0, (230, 110, 40), (60, 120, 210))
 
-# %% A notebook shows the image at the end of a cell.
+# %% A figure
 
 image = pt.render(particles["position"], particles["radius"], particles["color"], size=SIZE, samples=32, up="y",
                   floor=True)
 image.save("particles.png")
 print(image)
 
-# %% The image's numbers: linear radiance, its standard error, sample counts.
+# %% Linear radiance, its standard error, and sample counts
 
 print(f"mean radiance {image.radiance.mean():.3f}, brightest {image.radiance.max():.3f}, error {image.error:.1%}")
 
-# %% Another light and camera. Rendering ends when the error is 5%.
+# %% Another light and camera, and a target error of 5%
 
 spheres = pt.SphereArray(particles["position"], particles["radius"],
                          pt.Material(diffuse=0.6, specular=0.3, glossiness=50), color=particles["color"])
@@ -47,7 +47,7 @@ lit = context.render(scene, camera, pt.RenderSettings(*SIZE), samples=256, targe
 lit.save("lamp.png")
 print(f"\n{lit}")
 
-# %% Films can be added: half of the samples here, half elsewhere.
+# %% Films of different samples are added
 
 halves = []
 for first in 0, 8:
@@ -61,7 +61,7 @@ context.accumulate(16)
 assert np.array_equal(whole.image(), context.image())
 print(whole)
 
-# %% Moving particles, with the same context and arrays.
+# %% Moving particles, with the same context and arrays
 
 for step in range(3):
     particles["position"][:, 1] *= 0.8

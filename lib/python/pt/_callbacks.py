@@ -1,6 +1,4 @@
-"""Python callbacks of the library, and their exceptions.
-
-Python runs signal handlers while a callback executes, often before its first `try`. ctypes then passes the exception to
+"""Python runs signal handlers while a callback executes, often before its first `try`. ctypes then passes the exception to
 sys.unraisablehook instead of the caller. A CallbackGuard catches it there. The library stops at its next callback, and
 the guarded call raises the exception.
 """
@@ -41,8 +39,6 @@ class CallbackGuard:
         self._functions.append(function)
 
     def progress(self, function: Progress | None) -> Any:
-        """Returns a pt_progress_fn that stops the call after an exception, or when the function returns True."""
-
         def report(_: object, fraction: float) -> int:
             if self.error is not None:
                 return 1

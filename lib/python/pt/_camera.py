@@ -63,7 +63,7 @@ class Camera:
 
         center      shape (n, 3), n >= 1
         radius      shape (n,), or one number for all
-        direction   from the spheres to the camera, not 0
+        direction   toward the camera, not 0
         aspect      width / height of the image
         margin      width of the view relative to the tightest view
         """

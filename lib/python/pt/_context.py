@@ -29,7 +29,7 @@ MOST_SAMPLES = 2**32 - 1
 
 
 class Context:
-    """A renderer. Set a scene, a camera and settings, accumulate samples, read the image.
+    """A renderer for one scene, camera and settings at a time.
 
     device                index into devices(), "gpu", "cpu", a UUID, or part of a name; None: the best. "all", or a list
                           with commas, shares the samples among several devices
@@ -37,16 +37,14 @@ class Context:
     validation            whether the Khronos validation layer reports to log; UnsupportedError if it is missing
     scene_kernels         whether kernels may have a scene's numbers as constants; False suits scenes that often change
     submit_milliseconds   intended length of a submission, in [1, 1000]; calls can stop after each
-    shader_dir            GLSL files that replace the library's kernels (pt/shaders.h); ShaderError if one does not
-                          compile
+    shader_dir            GLSL files that replace the library's kernels (pt/shaders.h); ShaderError if one does not compile
 
-    Threads: contexts are independent, and calls release the interpreter's lock. A second concurrent call on a context,
-    also from a callback, raises InvalidStateError. After os.fork() a child cannot use its parent's contexts: start
-    workers with multiprocessing.get_context("spawn").
+    Contexts are independent, and calls release the interpreter's lock. A second concurrent call on a context, also from
+    a callback, raises InvalidStateError. A child of os.fork() cannot use its parent's contexts: start processes with
+    multiprocessing.get_context("spawn").
 
     Callbacks run on the calling thread. After an exception in a callback or a signal handler, the call stops at its
-    next callback and raises the exception. The context stays usable. Progress functions get the finished fraction, in
-    [0, 1].
+    next callback and raises the exception. The context stays usable. Progress functions get the finished fraction.
 
     A broken rule raises InvalidArgumentError, in scenes InvalidSceneError. Reading an image before the first sample
     raises InvalidStateError.
@@ -103,7 +101,7 @@ class Context:
 
     @property
     def device(self) -> DeviceInfo:
-        """The device, or the first of several."""
+        """With several devices, the first one."""
         info = structs.pt_device_info()
         self._call("pt_get_context_device", info)
         return device_of(info)
@@ -153,8 +151,8 @@ class Context:
         return self._call("pt_accumulate", info, guard=guard)
 
     def accumulate_tiles(self, samples: npt.ArrayLike, *, progress: Progress | None = None) -> Result:
-        """Adds `samples` to each pixel of a tile, for instance by Film.plan. Their shape is (rows, columns) or flat. Tiles
-        are 8 x 8 pixels from the top left of the rendered part, smaller at the right and lower edges."""
+        """`samples` has a number for each tile, shape (rows, columns) or flat, for instance by Film.plan. Tiles are 8 x 8
+        pixels from the top left of the rendered part, smaller at the right and lower edges."""
         counts = np.ascontiguousarray(samples, dtype=np.uint32).ravel()
         guard = self._guard()
         info = structs.pt_accumulate_info(
@@ -183,7 +181,7 @@ class Context:
         return stats_of(struct)
 
     def warning(self) -> BrokenRule | None:
-        """Names the surface that rounding moves farthest, with advice. None if it moves by at most a pixel."""
+        """Names the surface that rounding moves farthest, if by more than a pixel, with advice."""
         struct = structs.pt_broken_rule()
         self._call("pt_get_warning", struct)
         return broken_rule_of(struct) if struct.subject else None
@@ -212,12 +210,8 @@ class Context:
 
     def render(self, scene: Scene, camera: Camera, settings: RenderSettings, samples: int, *,
                target_error: float = 0.0, progress: Progress | None = None, denoise: bool = False) -> Image:
-        """Sets scene, camera and settings, accumulates samples and returns the image, also after progress returned True.
-        A UserWarning has the text of warning().
-
-        denoise   calls pt.denoise for two images, each with half of the samples and its own seed; target_error then
-                  applies to the denoised image
-        """
+        """Returns the image, also after progress returned True. A UserWarning has the text of warning(). `denoise` calls
+        pt.denoise for two images, each with half of the samples; target_error then applies to the result."""
         self.set_scene(scene)
         self.set_camera(camera)
         if denoise:

@@ -15,7 +15,7 @@ FIELDS: Final[dict[str, Any]] = dict(structs.pt_display_info._fields_)
 
 
 def automatic_exposure(radiance: npt.ArrayLike) -> float:
-    """Returns the exposure (stops, rounded to hundredths) that brings the average to middle grey, 0.18."""
+    """Returns stops, rounded to hundredths, that bring the average to middle grey, 0.18."""
     colors = np.ascontiguousarray(radiance, np.float32)
     exposure, loaded = ctypes.c_double(), library()
     checked(loaded, loaded.pt_automatic_exposure(_floats(colors), colors.size // 3, exposure))

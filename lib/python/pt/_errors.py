@@ -8,7 +8,7 @@ from pt._enums import Result
 
 @dataclass(frozen=True)
 class BrokenRule:
-    """A broken rule, such as `spheres[3].center[0] = nan: must be finite`."""
+    """For instance `spheres[3].center[0] = nan: must be finite`."""
 
     subject: str  # "materials", "spheres", "planes", "sphere_arrays", "scene", "camera", "render", ...
     index: int | None  # None outside arrays
@@ -31,7 +31,7 @@ class Error(Exception):
 
     result: Result
     broken_rules: tuple[BrokenRule, ...]
-    """At most the first eight rules; empty if the message concerns no field."""
+    """At most eight; empty if the message concerns no field."""
 
     def __init__(self, message: str, broken_rules: tuple[BrokenRule, ...] = ()) -> None:
         super().__init__(message)

@@ -53,13 +53,13 @@ class FilmTile:
 
 
 class Film:
-    """The samples of an image as exact sums. A film needs neither a device nor the scene.
+    """The samples of an image as exact sums, without device and scene. A film takes 112 bytes per pixel.
 
     Films with other samples or pixels of the same picture can be added by + or sum() in any order. The result has the
-    bits of one long rendering. Films can be pickled.
+    bits of one long rendering.
 
-    Film(data) reads the bytes of another film. Untrusted bytes are safe; damaged ones raise IncompatibleError. A film
-    takes 112 bytes per pixel. Concurrent calls wait for one another.
+    Film(data) reads the bytes of another film. Untrusted bytes are safe; damaged ones raise IncompatibleError.
+    Concurrent calls wait for one another.
     """
 
     def __init__(self, data: bytes) -> None:
@@ -81,8 +81,7 @@ class Film:
         write_atomically(path, lambda file: self.stream(file.write))
 
     def stream(self, write: Callable[[bytes], object]) -> None:
-        """Passes the bytes of to_bytes() to a function in pieces of at most a megabyte, without a copy of the film.
-        Raises the function's exception."""
+        """Passes to_bytes() to a function in pieces of at most a megabyte, without a copy. Raises its exception."""
         guard = CallbackGuard()
 
         def take(_: object, data: int, size: int) -> int:
@@ -188,15 +187,14 @@ class Film:
                          coverage=self.readback(Quantity.COVERAGE) if info.coverage else None)
 
     def plan(self, target_error: float, most: int) -> tuple[Result, npt.NDArray[np.uint32]]:
-        """Plans the next samples towards a target error, like Context.accumulate. Other machines can take them by
-        Context.accumulate_tiles.
+        """Plans the next samples towards a target error, like Context.accumulate.
 
         target_error   > 0; 0.01 is 1%
         most           most samples of a pixel
 
-        Returns a result and the wanted sample counts of the 8 x 8 pixel tiles, shape (rows, columns). The result is
-        Result.PENDING, Result.TARGET_REACHED, or Result.OK if no tile may have more samples. The film keeps its plans.
-        Raises IncompatibleError if pixels of one tile have different samples."""
+        Returns a result and the wanted sample counts of the 8 x 8 pixel tiles, shape (rows, columns), for
+        Context.accumulate_tiles. The result is Result.PENDING, Result.TARGET_REACHED, or Result.OK if no tile may have
+        more samples. The film keeps its plans. Raises IncompatibleError if pixels of one tile have different samples."""
         with self._lock:
             info, count = self.info, ctypes.c_uint32()
             self._call("pt_plan_film", target_error, most, None, count)

@@ -25,7 +25,6 @@ def new_pixels(shape: tuple[int, int], rectangle: Rectangle | None, format: Form
 
 
 def _format_of(array: npt.NDArray[Any]) -> Format:
-    """Rows may have any stride, but pixels of a row must be adjacent. Raises ValueError."""
     if array.ndim == 3 and array.dtype.isnative:
         for format, (channels, dtype) in LAYOUTS.items():
             dense = (channels * dtype.itemsize, dtype.itemsize)

@@ -57,9 +57,9 @@ MaterialOrIndex: TypeAlias = "Material | int"
 class Sphere:
     """A ball. Both sides are visible, reflect and emit.
 
-    center     position at time 0
+    center     at time 0
     radius     > 0
-    material   a Material, or its index in Scene.materials
+    material   a Material, or an index in Scene.materials
     motion     displacement from time 0 to time 1
     """
 
@@ -78,8 +78,8 @@ class Sphere:
 class Plane:
     """The points x with dot(normal, x) + offset = 0. Both sides are visible, reflect and emit.
 
-    normal     any length except 0; normal and offset are divided by this length
-    material   a Material, or its index in Scene.materials
+    normal     any length except 0, by which normal and offset are divided
+    material   a Material, or an index in Scene.materials
     """
 
     normal: Vector
@@ -104,8 +104,7 @@ class SphereArray:
 
     Native float32, float64, uint32 (indices) and uint8 (colors) are read in place if each row is contiguous and rows
     ascend at any stride, such as a[::2] and a[:, :3]. The constructor copies other arrays; `copied` has their names.
-    Raises ValueError for unsuitable shapes, TypeError for values that are not numbers and for integer colors other
-    than uint8.
+    Raises ValueError for unsuitable shapes, TypeError for unsuitable types.
     """
 
     center: Array

@@ -45,7 +45,6 @@ NOT_RESULTS: Final[dict[str, Any]] = {"pt_close_scene_file": None, "pt_get_colum
 
 @functools.lru_cache(maxsize=1)
 def scene_library() -> ctypes.CDLL:
-    """Returns the library beside libpt, else the system's. Raises ImportError if it is missing."""
     beside = pathlib.Path(library_path()).with_name(SONAME)
     path = str(beside) if beside.exists() else SONAME
     try:

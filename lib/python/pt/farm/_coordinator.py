@@ -111,7 +111,7 @@ class Coordinator:
         self._progress.samples_wanted = float((wanted * self._pixels).sum() / self._pixels.sum())
 
     def _seconds_to_ask(self) -> float:
-        """A late call of `more` plans more tiles together, but must come before a worker is idle. Calls take at most half of the time."""
+        """A late call of `more` plans more tiles together, but a worker must not become idle. Calls take at most half of the time."""
         if self._waiting or not self._open or not self._has_only or self._progress.parts == self._asked_at:
             return float("inf")
         idle = min((member.busy_until for member in self._crew if member.can_take(SLOTS)), default=float("inf"))

@@ -25,7 +25,7 @@ class Part:
         return (self.end - self.first) * len(self.tiles)
 
     def split(self, work: int, least_tiles: int) -> tuple[Part, list[Part]]:
-        """Returns a part of about this work, and the rest. The part has few tiles rather than few samples, so that its film is small."""
+        """The first part has few tiles rather than few samples, so that its film is small."""
         samples = self.end - self.first
         if self.work <= work:
             return self, []

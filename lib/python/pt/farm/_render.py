@@ -21,7 +21,7 @@ FIRST_LOOK = 16
 def render(client: Any, job: Job, samples: int, *, target_error: float = 0.0, sampling: Sampling = Sampling.BEST,
            options: Options = Options(), progress: Callable[[Progress, Film | None], object] = lambda *_: None
            ) -> Result:
-    """Renders a picture on the workers of a Dask cluster.
+    """Renders on the workers of a Dask cluster.
 
     client         a distributed.Client
     samples        samples of a pixel; with a target error, the most

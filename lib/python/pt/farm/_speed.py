@@ -22,8 +22,7 @@ class Speed:
         return work / self.value
 
     def share(self, part_seconds: float, least_seconds: float, remaining: int, all_speeds: float) -> int:
-        """Parts take part_seconds, but shrink near the end with the remaining work (guided self-scheduling: Polychronopoulos and Kuck
-        1987)."""
+        """Parts shrink with the remaining work (guided self-scheduling: Polychronopoulos and Kuck 1987)."""
         together = 0.5 * remaining / all_speeds
         return max(int(self.value * max(min(part_seconds, together), least_seconds)), 1)
 

@@ -29,12 +29,12 @@ PALETTE: Final = ((0, 114, 178), (230, 159, 0), (0, 158, 115), (213, 94, 0), (86
 PALE: Final = 0.6  # carbon's distance from white, relative to the palette's
 TINT: Final = 0.25  # fraction of the element's own color in a mixture; by taste
 MOST_CATEGORIES: Final = 1000
-SKEW: Final = 4.0  # limit of (full range) / (range from 1% to 99%): 1 for uniform, 2 for normal, 3 for exponential values
+SKEW: Final = 4.0  # limit of (full range) / (range from 1% to 99%), which is 3 for exponential values
 
 
 @dataclass(frozen=True)
 class ColorBar:
-    """`low` and `high` have the first and last color. If they are equal, `norm` has a wider range."""
+    """`low` and `high` have the first and last color."""
 
     title: str
     low: float
@@ -274,7 +274,6 @@ def _of_numbers(values: Array, title: str, given: Options, notes: list[str]) -> 
 
 
 def _range(values: Array, given: Options, title: str, notes: list[str]) -> tuple[float, float]:
-    """Returns the range of the finite numbers or, if a few are far from the rest, from 1% to 99% of them."""
     least, largest = math.inf, -math.inf
     floor = 0.0 if given.scale == "log" else -math.inf
     for rows in chunks(len(values)):

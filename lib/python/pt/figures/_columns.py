@@ -80,8 +80,7 @@ def first_of(columns: Mapping[str, Array], names: tuple[str, ...]) -> str | None
 
 
 def coordinate_names(names: list[str]) -> tuple[list[str], bool]:
-    """Returns two, three or no names, and whether they are fractional coordinates. Z is the atomic number beside x, y and z, but the third
-    coordinate beside x and y alone."""
+    """Returns two, three or no names, and whether they are fractional coordinates. Z is the third coordinate only if there is no z."""
     if all(axis in names for axis in "xyz"):
         return ["x", "y", "z"], False
     by_plain: dict[str, str] = {}

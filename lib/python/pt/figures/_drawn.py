@@ -135,7 +135,6 @@ def prepare(particles: Particles, options: Options, scale: float | None = None, 
 
 
 def _shown(particles: Particles, options: Options, radii: Array, notes: list[str], hidden: Array | None) -> Array | None:
-    """`hidden` marks atoms that a tube replaces."""
     conditions = [options.where] if isinstance(options.where, str) else options.where
     shown: Array | None = np.logical_and.reduce([chosen(particles, each) for each in conditions]) if conditions else None
     if shown is not None and not shown.any():

@@ -57,7 +57,6 @@ def view_of(drawn: Drawn, options: Options, turns: bool = False, grid: tuple[int
 
 
 def _printed_size(drawn: Drawn, options: Options, turns: bool, grid: tuple[int, int]) -> tuple[int, int]:
-    """The height follows from the shape of the data beside the color bar."""
     assert options.pixel_width is not None
     shape = (1024, 768) if options.camera else View.of(drawn.balls, options.view, options.up, options.projection, None, turns).size
     height = 0

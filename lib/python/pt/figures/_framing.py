@@ -13,7 +13,7 @@ from pt.figures._spread import middle_of, reaches_of, usual_reach
 
 FAR: Final = 4.0
 BEYOND: Final = 1.25
-LARGE: Final = 10.0  # a cell that is larger than this multiple of the particles' reach is not drawn; by taste
+LARGE: Final = 10.0  # a cell larger than this multiple of the particles' reach is not drawn; by taste
 OUTSIDE: Final = 0.1
 WALL: Final = 0.01
 LEAST_COVER: Final = 0.1
@@ -67,8 +67,7 @@ def _hides(cell: Cell, positions: Array, radii: Array) -> bool:
 
 
 def narrow_note(radii: Array, pixels: float, size: tuple[int, int], scale: float) -> str | None:
-    """Concerns balls that are narrower than a pixel and together cover little of the picture. `radii` are in scene units, `pixels` counts
-    pixels per scene unit, and `scale` is in scene units per unit of the data."""
+    """`radii` are in scene units, `pixels` counts pixels per scene unit, and `scale` is in scene units per unit of the data."""
     if float(radii.min()) >= 0.5 / pixels:
         return None
     halves = radii * pixels

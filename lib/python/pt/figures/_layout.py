@@ -83,7 +83,6 @@ class View:
 
 
 def _shape(extents: Doubles) -> tuple[int, int]:
-    """Returns multiples of 8 with about PIXELS pixels, in the ratio of the extents, up to MOST_ASPECT."""
     aspect = min(max(float(extents[0] / extents[1]), 1.0 / MOST_ASPECT), MOST_ASPECT)
     sides = [8 * math.floor(side / 8.0 + 0.5) for side in (math.sqrt(PIXELS * aspect), math.sqrt(PIXELS / aspect))]
     return sides[0], sides[1]
@@ -103,7 +102,7 @@ class Layout:
 
     @staticmethod
     def of(view: View, reaches: Doubles, style: str, floor: bool) -> Layout:
-        """`reaches` is View.reaches of everything shown. Raises ValueError if the camera is below the floor."""
+        """Raises ValueError if the camera is below the floor."""
         axes, forward = view.axes, view.axes[2]
         extents = Extents.of(reaches[:6])
         middle = extents.middle

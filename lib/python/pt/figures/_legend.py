@@ -25,7 +25,7 @@ def plain(text: str) -> str:
 
 
 def put_legend(sheet: Any, legend: Legend, left: float, bottom: float, height: float, font: float, ink: Any) -> None:
-    """Inches, but `font` in points. `height` is the height of a color bar and the limit for a column of swatches."""
+    """`font` is in points, lengths are in inches. `height` is the height of a color bar and the limit for a column of swatches."""
     if legend is None:
         raise ValueError("legend: is empty, because all colors are given or alike")
     colors = ("text.color", "axes.labelcolor", "axes.edgecolor", "xtick.color", "ytick.color")
@@ -77,7 +77,7 @@ def write(sheet: Any, file: Any, format: str, **more: Any) -> None:
 
 
 def extent_of(legend: Legend, height: float, font: float, dpi: float) -> tuple[float, float, float, float]:
-    """Left, bottom, right and top in inches, relative to the place of put_legend()."""
+    """Returns left, bottom, right and top in inches, relative to the place of put_legend()."""
     sheet = _alone(legend, height, font)
     sheet.set_dpi(dpi)
     box = sheet.get_tightbbox(matplotlib("backends.backend_agg").FigureCanvasAgg(sheet).get_renderer())

@@ -24,7 +24,7 @@ ARROW: Final = 3.0
 AXES: Final = ("#c0392b", "#1e8449", "#2471a3")
 MOST_WORDS: Final = 1000
 HAIR: Final = 1e-3  # pixels, because matplotlib rounds sizes down
-NEARER: Final = 1e-3  # of a ball's radius
+NEARER: Final = 1e-3  # relative to the radius
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ class Marks:
         words = words_of(particles, labels)
         rows = np.flatnonzero((words != "") & (True if shown is None else shown))
         if len(rows) > MOST_WORDS:
-            raise ValueError(f"labels: {len(rows):,} words; there can be {MOST_WORDS:,}")
+            raise ValueError(f"labels: has {len(rows):,} words: must have at most {MOST_WORDS:,}")
         pairs = np.asarray([] if distances is None else distances, np.intp).reshape(-1, 2)
         if len(bad := pairs[(pairs < 0) | (pairs >= len(particles))]):
             raise ValueError(f"distances: {bad[0]}: must be an index of a particle, from 0 to {len(particles) - 1}")
@@ -56,7 +56,7 @@ class Marks:
                      [f"{length:.3g}" for length in lengths])
 
     def seen(self, camera: Camera, depths: Array) -> Array:
-        """Whether nothing hides the middle of each ball. `depths` has first hits of pixels."""
+        """Masks balls whose middle nothing hides. `depths` has first hits of pixels."""
         across, down, away = places_of(camera, depths.shape[::-1], self.places).T
         inside = (away > 0.0) & (across >= 0.0) & (down >= 0.0) & (across < depths.shape[1]) & (down < depths.shape[0])
         hits = depths[np.where(inside, down, 0).astype(np.intp), np.where(inside, across, 0).astype(np.intp)]
@@ -88,7 +88,7 @@ def _texts(particles: Particles, given: Any) -> Array:
 
 
 def places_of(camera: Camera, size: Sequence[int], points: Doubles) -> Doubles:
-    """Pixels from the left and the top, and depths."""
+    """Returns pixels from the left and the top, and depths."""
     right, above, back = camera.axes()
     ways = points - np.asarray(camera.position)
     depths = -(ways @ back)
@@ -103,7 +103,7 @@ def bar_length(text: str | float) -> float:
 
 
 class Page:
-    """Lengths are in pixels from the left upper corner, `font` is in points."""
+    """Lengths are in pixels from the upper left corner, `font` is in points."""
 
     def __init__(self, size: Sequence[int], dpi: float, font: float, ink: str) -> None:
         self.size, self.dpi, self.font, self.ink, self.em = size, dpi, font, ink, font * dpi / POINTS_PER_INCH

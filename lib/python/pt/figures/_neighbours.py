@@ -10,11 +10,11 @@ from pt.figures._cell import Cell
 
 Array = npt.NDArray[Any]
 
-MOST_COMPARED: Final = 400_000_000  # pairs; comparing them takes about a minute
+MOST_COMPARED: Final = 400_000_000  # pairs
 MOST_FOUND: Final = 20_000_000
 COMPARED_AT_ONCE: Final = 1 << 21
 SLACK: Final = 1.0 + 2.0**-30
-AHEAD: Final = ((0, 1), (1, -1), (1, 0), (1, 1))  # steps to half of the neighbouring rows in a grid; the other steps are opposite
+AHEAD: Final = ((0, 1), (1, -1), (1, 0), (1, 1))  # steps to half of a grid's neighbouring rows; the other steps are opposite
 
 
 class Pairs(NamedTuple):

@@ -17,11 +17,11 @@ from pt._image import Image
 from pt._scene import Scene
 
 MOST_NOISE: Final = 1.5  # steps of 1/255; by taste
-FIRST_SAMPLES: Final = 16  # the fewest with a stated error
-MOST_SAMPLES: Final = 256  # of a pixel; fine textures hide the remaining noise; by taste
+FIRST_SAMPLES: Final = 16  # fewest samples with a stated error
+MOST_SAMPLES: Final = 256  # fine textures hide the remaining noise
 WORST: Final = 1.5  # largest noise of a neighbourhood, relative to MOST_NOISE; by taste
 FLOOR: Final = 0.4  # like WORST, for an even floor, where noise shows most
-SHARE: Final = 1.03  # a round aims at this multiple of the allowed square, because quasi-random samples do better than random ones
+SHARE: Final = 1.03  # rounds aim at this multiple of the allowed square, because quasi-random samples do better than random ones
 SEQUENCES: Final = 1.0 / math.sqrt(7.0)  # the error of quasi-random points may be this fraction of the stated one
 
 Show = Callable[[Array, Array], Array]  # shows light in 16 bits, with the exposure of an image
@@ -57,7 +57,7 @@ def squares_of(show: Show, radiance: npt.NDArray[np.float32], error: npt.NDArray
 
 def until_invisible(context: Context, scene: Scene, camera: Camera, settings: RenderSettings, show: Show, covered: Array,
                     progress: Progress | None) -> Image:
-    """Takes samples until the noise is at most MOST_NOISE. Returns the image also after progress returned True."""
+    """Returns the image also after progress returned True."""
     done, ended = 0.5, False
 
     def watched(first: float, last: float) -> Progress | None:

@@ -37,7 +37,6 @@ MOST_SAMPLES: Final = 65536
 
 
 def _option(group: str, default: Any, metavar: str, words: str, **more: Any) -> Any:
-    """`more` may have choices, rule (a condition and its words), flag (the name on the command line), and read (converts text)."""
     return field(default=default, metadata={"group": group, "metavar": metavar, "words": words, **more})
 
 

@@ -30,8 +30,8 @@ INK: Final = 0.2  # fraction of a shape's color in its outline, in the illustrat
 
 @dataclass(frozen=True)
 class Shares:
-    """Values of each pixel from first hits: coverage by shapes and outlines, the shapes' mean depth, and the fraction by which they fade.
-    `flat` has unlit colors. `seen` marks labels that nothing hides."""
+    """Values of pixels from first hits: coverage by shapes and outlines, the shapes' mean depth, and the fraction by which they fade.
+    `flat` has unlit colors. `seen` masks labels that nothing hides."""
 
     shapes: Doubles
     outlines: Doubles
@@ -44,8 +44,7 @@ class Shares:
 
 @dataclass(frozen=True)
 class Overlaid:
-    """The shapes of the picture, for outlines and depth cues.
-
+    """
     first    index of the first particle among all spheres and capsules
     count    number of particles, bonds, vectors and edges of the cell, in this order
     radii    of shapes with outlines: all except edges of the cell

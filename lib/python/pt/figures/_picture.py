@@ -17,7 +17,7 @@ from pt.figures._marks import MARGIN, Page
 from pt.figures._options import Options
 
 PIXELS_PER_INCH: Final = 100.0
-BAR: Final = 0.62  # of the picture's height
+BAR: Final = 0.62  # relative to the picture's height
 PAGES: Final = ("png", "jpg", "jpeg", "pdf", "svg")
 
 
@@ -26,7 +26,7 @@ def font_of(height: int, options: Options) -> float:
 
 
 def strip_of(legend: Legend, height: int, options: Options) -> int:
-    """The width of the legend, in pixels."""
+    """Returns the width of the legend in pixels."""
     if not options.colorbar or legend is None:
         return 0
     dpi = options.printed_dpi or PIXELS_PER_INCH
@@ -35,7 +35,7 @@ def strip_of(legend: Legend, height: int, options: Options) -> int:
 
 
 def background_of(options: Options) -> tuple[Doubles | None, str]:
-    """The color, None if transparent, and the ink."""
+    """Returns the color, or None if transparent, and the ink."""
     if isinstance(options.background, str) and options.background == "transparent":
         return None, INK
     is_white = isinstance(options.background, str) and options.background == "white"
@@ -113,7 +113,7 @@ class Picture:
         return page
 
     def encode(self, format: str, *, exposure: float | None = None, bits: int = 8) -> bytes:
-        """Returns a file of this format: png, jpg, pdf or svg, of a figure also exr with linear radiance. bits: 8 or 16, for png."""
+        """Returns a png, jpg, pdf or svg file, or for a figure an exr file with linear radiance. bits: 8 or, for png, 16."""
         dpi = self._options.printed_dpi
         if format in ("jpg", "jpeg"):
             if self._options.background == "transparent":
@@ -128,7 +128,7 @@ class Picture:
         return encode_png(self.picture(np.uint8 if bits == 8 else np.uint16, exposure), dpi)
 
     def save(self, path: Path, *, exposure: float | None = None, bits: int = 8) -> None:
-        """Writes a file atomically. In .pdf and .svg words and lines are vectors over the picture."""
+        """Writes a file atomically. In .pdf and .svg, words and lines are vectors over the picture."""
         data = self.encode(format_of(path, self.formats), exposure=exposure, bits=bits)
         write_atomically(path, lambda file: file.write(data))
 

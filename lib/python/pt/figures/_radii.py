@@ -183,8 +183,7 @@ def _of_types(particles: Particles, radii: Mapping[str, float]) -> Array:
 
 
 def typical_radius(positions: Array) -> float:
-    """Returns half of the median distance to the nearest neighbour or, for random points, to the fourth. Neighbours at the same place do
-    not count."""
+    """Returns half of the median distance to the nearest neighbour or, for random points, to the fourth."""
     first, fourth = _neighbour_distances(positions)
     if not len(first):
         return 1.0
@@ -231,7 +230,7 @@ def _neighbour_distances(positions: Array) -> tuple[Array, Array]:
 
 
 def _near(positions: Array, places: Doubles, low: Doubles, side: float) -> tuple[Doubles, Array, Array]:
-    """Returns the positions in and around the cells of `places`, ordered by cell, and for each place where its 27 cells begin and end."""
+    """Returns the positions in and around the cells of `places`, ordered by cell, and where each place's 27 cells begin and end."""
     keys = _keys(_cells(places, low, side)[:, :, None] + STEPS)
     wanted = np.zeros(1 << TABLE_BITS, bool)
     wanted[keys] = True

@@ -16,7 +16,7 @@ def render(positions: npt.ArrayLike, radii: npt.ArrayLike, colors: npt.ArrayLike
            camera: Camera | None = None, up: Direction = "z", floor: bool = False, material: Material | None = None,
            max_path_length: int = 4, denoise: bool = False, seed: int = 0, device: str | None = None,
            context: Context | None = None, progress: Progress | None = None) -> Figure:
-    """Renders spheres from arrays. Other parameters are as in figure(), with 640 x 480 pixels and 16 samples by default.
+    """Renders spheres from arrays, by default with 640 x 480 pixels and 16 samples. Other parameters are as in figure().
 
     positions   shape (n, 3), n >= 1
     radii       shape (n,), or one number for all; > 0

@@ -43,7 +43,6 @@ def chosen(particles: Particles, text: str, option: str = "where") -> Mask:
 
 
 def masked(particles: Particles, key: str, option: str) -> Mask:
-    """The particles of a selection, a type or an element."""
     kind = "type" if particles.elements is None else "element"
     return chosen(particles, key if is_selection(key) else f'{kind} "{key}"', option)
 

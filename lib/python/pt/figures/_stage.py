@@ -37,7 +37,7 @@ def material_of(style: str) -> Material:
 
 
 def make_stage(style: str, axes: Doubles, distance: float, center: Doubles, radius: float, floor: Plane | None) -> Stage:
-    """`axes` are right, up, forward. `distance` goes from the camera to `center`, the center of a ball around everything."""
+    """`distance` goes from the camera to `center`, the center of a ball around everything."""
     material = material_of(style)
     # The key lamp is farther than the camera, so its light hardly falls off over the data.
     far = max(20.0 * radius, 4.0 * distance)

@@ -1,4 +1,4 @@
-"""Looks by kind of data. A style sets options that have their defaults."""
+"""A style sets options that have their defaults."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ VALUES: Final[dict[str, dict[str, Any]]] = {
     "illustrative": {"outlines": True, "box": "none"},
     "cover": {"floor": True},
 }
-LOOKS: Final = ("soft", "illustrative", "cover")  # for every kind of data
+LOOKS: Final = ("soft", "illustrative", "cover")
 WORDS: Final = {"molecule": "balls and sticks", "protein": "chains by color, no water, no cell", "crystal": "bonds, cell and all corner atoms",
                 "point-cloud": "soft light, far points paler", "galaxy": "a dark background"}
 
@@ -125,7 +125,6 @@ def repeated(particles: Particles, counts: tuple[int, int, int], options: Option
 
 
 def groups_of(particles: Particles) -> Array | None:
-    """Returns chain and residue, shape (n, 2), or None if the data have no chains."""
     if "chain" not in particles.columns:
         return None
     _, chains = np.unique(particles.columns["chain"].astype(str), return_inverse=True)

@@ -12,12 +12,12 @@ from pt.figures._templates import polymers_of
 
 PIECES: Final = 8  # capsules from one atom of a trace to the next
 WIDTH: Final = 0.14  # radius of a tube, relative to the median distance of its atoms; by taste
-GAP: Final = 1.6  # consecutive atoms of a trace are apart by at most this multiple of the median distance
+GAP: Final = 1.6  # largest distance of consecutive atoms, in median distances
 _CARBON: Final = (0, 6)
 
 
 def trace_of(particles: Particles) -> Array:
-    """Masks the atoms on a tube's axis: CA of amino acids, P of nucleotides."""
+    """CA of amino acids, and P of nucleotides."""
     if "name" not in particles.columns:
         return np.zeros(len(particles), bool)
     names = particles.columns["name"].astype(str)

@@ -10,7 +10,7 @@ from pt._fit import Array, Doubles
 from pt.figures._options import VIEWS, Direction
 from pt.figures._spread import SAMPLE
 
-# The three-quarter view, by taste. Neither an edge of a box nor its diagonal is along the line of sight. Flat data are seen from higher up.
+# The three-quarter view, by taste. Neither an edge of a box nor its diagonal is along the line of sight.
 AZIMUTH: Final = 30.0
 ELEVATION_OF_BODIES: Final = 22.0
 ELEVATION_OF_DISCS: Final = 50.0
@@ -58,13 +58,12 @@ class Compass:
 
 
 def relative_height(extents: Doubles) -> float:
-    """Returns the size along up, relative to the size across: 0 for a layer, 1 for a cube. `extents` are along right, front and up."""
+    """Returns 0 for a layer, 1 for a cube. `extents` are along right, front and up."""
     across = math.hypot(extents[0], extents[1])
     return float(extents[2] / (across / math.sqrt(2.0))) if across > 0.0 else 1.0
 
 
 def toward_camera(view: Direction, compass: Compass, height: float) -> Doubles:
-    """Only the three-quarter view uses `height`, the result of relative_height()."""
     if view == "three-quarter":
         if height == 0.0:
             return compass.up

@@ -11,7 +11,7 @@ from pt._vectors import Triple
 FloatArray = npt.NDArray[np.float64]
 
 DEFAULT_RADIUS = 1 / 50  # radius of a point light's lamp, relative to its distance
-LEAST_RADIUS = 1e-6  # relative to the extent; only a light on a surface would get a smaller lamp
+LEAST_RADIUS = 1e-6  # relative to the extent; only lights on surfaces would get smaller lamps
 SUN_DISTANCE = 100.0
 LEAST_SHARE = 1 / 3  # a bright background dims lights at most to this fraction; by taste
 
@@ -48,7 +48,6 @@ class Surroundings:
         return float(min(gaps, default=np.inf))
 
     def extent(self, lights: list[Light]) -> float:
-        """Returns the largest distance from the target to a surface other than a plane, always above 0."""
         reach = np.linalg.norm(np.array([self.centers, self.ends]) - self.target, axis=2).max(axis=0) + self.radii
         places = [np.array(light.place) for light in lights if not light.is_directional] + [self.camera]
         return float(max([float(np.linalg.norm(place - self.target)) for place in places] + reach.tolist()))
@@ -82,11 +81,8 @@ def dimmed(lights: list[Light], background: Triple) -> list[Light]:
 
 
 def lamps_of(lights: list[Light], around: Surroundings) -> tuple[list[Sphere], list[str]]:
-    """Returns a ball for each light, and warnings about omitted lights.
-
-    A white surface that faces a ball of radius r and radiance L at distance d has the radiance L (r / d)^2. L gives such a surface at the
-    camera's target the light's radiance. A radius is at most half of the distance to the nearest surface and, if visible, to the camera.
-    """
+    """Returns balls, and warnings about omitted lights. A white surface that faces a ball of radius r and radiance L at distance d has the
+    radiance L (r / d)^2. L gives such a surface at the camera's target the light's radiance."""
     extent = around.extent(lights)
     lamps: list[Sphere] = []
     warnings: list[str] = []

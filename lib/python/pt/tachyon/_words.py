@@ -89,7 +89,6 @@ class Words:
         return self.point(keyword)
 
     def point(self, what: str) -> Triple:
-        """Tachyon's world is left-handed, so z changes its sign."""
         return self.number(what), self.number(what), -self.number(what)
 
     def direction(self, keyword: str) -> Triple:

@@ -1,4 +1,4 @@
-"""The port and the token of a view are kept in a file, so that its address works again after a restart."""
+"""A file keeps the port and the token of a view, so that its address works again after a restart."""
 
 from __future__ import annotations
 

@@ -22,7 +22,6 @@ class Course:
         self.state: dict[str, Any] | None = None
 
     def check(self) -> None:
-        """Ends an earlier check first."""
         self.close()
         with self._lock:
             self.state = None

@@ -33,7 +33,6 @@ class Frame:
     spoilt: Array | None = None
 
     def message(self, pixels: bytes, stops: float) -> bytes:
-        """Joins the length of the state, the state as JSON, and the pixels."""
         state = json.dumps({**self.state, "frame": self.number, "stops": stops, "choices": CHOICES}).encode()
         return struct.pack("<I", len(state)) + state + pixels
 

@@ -44,7 +44,7 @@ class Source(Protocol):
         """Returns the error's message, with names of keys in the file."""
 
     def saved(self, camera: Camera) -> tuple[str, bytes]:
-        """Returns name and contents of a file with the scene and this camera."""
+        """Returns a file's name and contents."""
 
 
 class SceneSource:

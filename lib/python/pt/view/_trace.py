@@ -20,7 +20,7 @@ from pt._scene import Scene
 from pt.view._code import SHADERS
 
 HOOKS: Final = "trace.glsl"
-HEADER, NUMBER, WORDS, VERTEX, THROUGHPUT, RADIANCE = 1, 2, 3, 4, 5, 6  # kinds of records, as in trace.glsl
+HEADER, NUMBER, WORDS, VERTEX, THROUGHPUT, RADIANCE = 1, 2, 3, 4, 5, 6  # as in trace.glsl
 FARTHEST: Final = 1e30  # for a ray that hits nothing, the library's kernel records a farther vertex
 Doubles = npt.NDArray[np.float64]
 
@@ -52,7 +52,6 @@ class Trace:
 
 
 def kernels() -> pathlib.Path | None:
-    """Returns the folder of the library's kernels, if it is installed."""
     here = pathlib.Path(__file__).resolve()
     places = (here.parents[1] / "shaders", pathlib.Path(library_path()).resolve().parents[1] / "share/pt/shaders",
               here.parents[4] / "shaders")
@@ -110,7 +109,6 @@ class Tracer:
 
 
 def trace_of(film: Array, camera: Camera) -> Trace:
-    """Decodes the film of a kernel with hooks."""
     flat = film.reshape(-1, 3).astype(np.float64)
     unit = flat[0, 0] / 2**23
     pieces = (flat / unit if unit > 0.0 else flat).astype(np.uint64)
@@ -162,7 +160,7 @@ class Projection:
 
 
 def message_of(trace: Trace, camera: Camera, settings: RenderSettings) -> dict[str, Any]:
-    """Returns the trace as JSON, with lines between vertices. Numbers that are not finite are null."""
+    """Numbers that are not finite are null."""
     projection = Projection(camera, settings)
     last: dict[int, Doubles] = {}
     vertices, lines = [], []

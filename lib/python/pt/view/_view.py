@@ -24,9 +24,9 @@ class View:
     size         width and height in pixels; None: the scene's
     samples      most samples of a pixel
     device       as in Context
-    shader_dir   kernels that replace the library's; the page has an editor for them and for the scene
+    shader_dir   kernels that replace the library's, with an editor in the page
     port         0 for a free port
-    options      options of pt.figure, for particles
+    options      as in pt.figure, for particles
     address_file keeps the address for the next start, readable for its user alone
 
     The server listens only on 127.0.0.1. Everybody who knows `address` has full control. A notebook shows the view if

@@ -22,10 +22,10 @@ class Frames(Protocol):
     def count(self) -> int: ...
 
     def has(self, index: int) -> bool:
-        """Reads a file only as far as necessary. `index` is >= 0."""
+        """Reads only as far as necessary. `index` is >= 0."""
 
     def read(self, index: int) -> Table:
-        """`index` is in [0, count())."""
+        ...
 
 
 class Listed:

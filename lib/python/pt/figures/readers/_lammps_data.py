@@ -137,7 +137,6 @@ class LammpsData:
         self.columns = self._rows("atoms", names, least)
 
     def _style(self, some: list[list[str]], hint: str) -> str:
-        """Uses the given style, or the hint after "Atoms", or the columns of some rows."""
         hint = hint.split()[0] if hint else ""
         if self.style is None and hint in STYLES:
             self.style = hint

@@ -1,4 +1,4 @@
-"""Molecules with bonds (SDF, MOL, MOL2, CML) and trajectories (XTC, TRR, DCD, ...), read by chemfiles."""
+"""Molecules (SDF, MOL, MOL2, CML) and trajectories (XTC, TRR, DCD, ...), read by chemfiles."""
 
 from __future__ import annotations
 

@@ -80,7 +80,6 @@ def frames_of_arrays(name: str, arrays: Mapping[str, Any]) -> Frames:
 
 
 def frames_of_array(name: str, array: Array) -> Frames:
-    """Accepts shape (n, 3), (n, 2), (n, k) with columns x, y, z, 4, ..., (t, n, 3), or a structured array."""
     if array.dtype.names:
         return frames_of_arrays(name, {key: array[key] for key in array.dtype.names})
     if array.dtype.kind not in "fiub" or array.ndim not in (2, 3) or not 2 <= array.shape[-1]:

@@ -31,7 +31,6 @@ class Layout:
 
     positions  columns that must be numbers
     separator  "" for blanks
-    decimal    decimal mark
     least      least number of fields in a row; fields without a name are ignored
     is_table   whether the number of rows is unknown. Blank lines and comments (#) are then skipped, and columns except
                positions may mix numbers and words
@@ -90,7 +89,7 @@ class Rows:
         self._are_words: list[bool] = []
 
     def read(self, count: int | None = None, marks: re.Pattern[bytes] | None = None) -> None:
-        """Reads `count` rows, or all. Text that matches `marks` counts as blank."""
+        """Text that matches `marks` counts as blank."""
         lines = self.lines
         while count is None or self.count < count:
             first = lines.number + 1

@@ -65,7 +65,6 @@ def _layout(line: str, comment: str, lines: Lines) -> tuple[Layout, bool]:
 
 
 def _default_names(first: list[str], decimal: str) -> list[str]:
-    """The names are x, y, z, then 4, 5, ... A first column of words is the species."""
     is_labelled = len(first) > 3 and not is_number(first[0], decimal)
     names = (["species"] if is_labelled else []) + ["x", "y", "z"]
     return (names + [str(i) for i in range(len(names) + 1, len(first) + 1)])[:len(first)]
