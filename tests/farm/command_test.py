@@ -19,18 +19,14 @@ try:
 except ImportError:
     print("skipped: Dask's distributed is not installed")
     sys.exit(77)
+from pictures import SCENE_FILE
 from pt import farm
 from pt.farm import _command
 
 if __name__ == "__main__":
     os.environ["PT_PROGRAM"] = os.path.abspath(sys.argv.pop(1))
 PT = os.environ["PT_PROGRAM"]
-SCENE = {"camera": {"position": [0, 1, 5], "look_at": [0, 0.8, 0]}, "film": {"width": 96, "height": 60},
-         "materials": {"lamp": {"emission": [10, 9, 7]}, "grey": {"diffuse": 0.6}},
-         "spheres": [{"center": [-2, 4, 2], "radius": 1, "material": "lamp"},
-                     {"center": [0, 1, 0], "radius": 1, "material": "grey"}],
-         "planes": [{"normal": [0, 1, 0], "offset": 0, "material": "grey"}],
-         "animation": {"camera.position": [[0, [0, 1, 5]], [2, [1, 1, 5]]]}}
+SCENE = {**SCENE_FILE, "film": {"width": 96, "height": 60}, "animation": {"camera.position": [[0, [0, 1, 5]], [2, [1, 1, 5]]]}}
 ENDLESS = 10**8
 
 

@@ -59,7 +59,7 @@ class Minnaert(unittest.TestCase):
                     self.assertLess(share, 0.05)
 
     def test_a_floor_under_a_white_sky_has_the_radiance_of_the_page(self):
-        """With the albedo 1/2 it is 1/2 from above, and half of it at 60 degrees."""
+        """The floor reflects half of the light upward, and a quarter at 60 degrees."""
         floor = pt.Scene([pt.Sphere((0, 0, 0), 1000, pt.Material(emission=1))], [pt.Plane((0, 1, 0), 0, pt.Material(diffuse=0.5))])
         for position, radiance in ((0, 1, 0), 0.5), ((0, 1, 3**0.5), 0.25):
             camera = pt.Camera(position, (0, 0, 0), (1, 0, 0), vertical_extent=1)

@@ -47,14 +47,11 @@ class Traces(unittest.TestCase):
     def setUpClass(cls):
         cls.tracer = Tracer(None, None)
         cls.addClassCleanup(cls.tracer.close)
+        cls.context = cls.enterClassContext(pt.Context())
 
-    def film(self, scene, camera, settings, sample, shader_dir=None):
-        with pt.Context(shader_dir=shader_dir) as context:
-            context.set_scene(scene)
-            context.set_camera(camera)
-            context.set_render(dataclasses.replace(settings, first_sample=sample))
-            context.accumulate(1)
-            return context.readback()
+    def film(self, context, scene, settings, sample):
+        settings = dataclasses.replace(settings, first_sample=sample)
+        return context.render(scene, CAMERA, settings, 1).radiance
 
     def check_path(self, trace, scene, camera, branches):
         light, last = np.zeros(3), {0: (np.array(camera.position), None, None, None)}
@@ -84,7 +81,7 @@ class Traces(unittest.TestCase):
             branches = sum(vertex.number == 2 for vertex in trace.vertices)
             self.assertEqual(len(trace.vertices), 1 + 3 * branches)
             self.check_path(trace, ROOM, CAMERA, branches)
-            np.testing.assert_array_equal(trace.radiance, self.film(ROOM, CAMERA, settings, sample)[y, x])
+            np.testing.assert_array_equal(trace.radiance, self.film(self.context, ROOM, settings, sample)[y, x])
             lit += trace.radiance.any()
         self.assertGreater(lit, 1)
 
@@ -96,7 +93,7 @@ class Traces(unittest.TestCase):
             settings = dataclasses.replace(SETTINGS, **fields)
             for x, y, sample in PIXELS[:2]:
                 trace = self.tracer.trace(scene, CAMERA, settings, x, y, sample)
-                np.testing.assert_array_equal(trace.radiance, self.film(scene, CAMERA, settings, sample)[y, x])
+                np.testing.assert_array_equal(trace.radiance, self.film(self.context, scene, settings, sample)[y, x])
                 self.assertTrue(trace.vertices and max(surface_of(vertex.position, scene)[0] for vertex in trace.vertices) < NEAR)
 
     def test_the_first_vertex_is_in_its_pixel(self):
@@ -147,13 +144,14 @@ class Traces(unittest.TestCase):
             self.assertEqual([vertex.number for vertex in trace.vertices], [1])
             for difference in ("1-emission", "2-directions", "3-throughput"):
                 subprocess.run(["patch", "-s", "-p1", "-d", folder, "-i", ROOT / f"shaders/coursework/{difference}.diff"], check=True)
+            context = self.enterContext(pt.Context(shader_dir=folder))
             for x, y, sample in PIXELS:
                 trace = tracer.trace(ROOM, CAMERA, settings, x, y, sample)
                 self.assertEqual([vertex.number for vertex in trace.vertices], [1, 2, 3, 4])
                 self.check_path(trace, ROOM, CAMERA, 1)
                 numbers = [number for vertex in trace.vertices for number in vertex.numbers]
                 self.assertEqual(numbers, course_numbers(settings.width * y + x, sample, self.seed_word(), 6))
-                np.testing.assert_array_equal(trace.radiance, self.film(ROOM, CAMERA, settings, sample, folder)[y, x])
+                np.testing.assert_array_equal(trace.radiance, self.film(context, ROOM, settings, sample)[y, x])
             kernel = folder / "pathtrace.comp"
             kernel.write_text(kernel.read_text().replace("(2.0 * PI);", "(4.0 * PI);", 1))
             with self.assertRaises(AssertionError):
