@@ -4,7 +4,6 @@ import json
 import os
 import random
 import shutil
-import signal
 import subprocess
 import time
 
@@ -70,19 +69,6 @@ class KilledRender(KeptRender):
         self.expect(0, *options, *keep)
         self.assertEqual([self.contents(file) for file in ("a.png", "a.ptfilm")], expected)
         self.assertEqual(self.files(), ["a.png", "a.ptfilm", name])
-
-    def test_a_signal_leaves_what_another_run_goes_on_from(self):
-        options = self.options(5000)
-        expected = self.whole(*options)
-        process = self.start(*options[:-1], "--checkpoint", "c.ptfilm", "--progress", "json")
-        self.assertIn('"fraction"', process.stderr.readline())
-        process.send_signal(signal.SIGTERM)
-        errors = process.communicate(timeout=PATIENCE)[1]
-        self.assertIn(process.returncode, (0, 143), errors)  # 0 if the program ended before the signal
-        self.assertEqual("--resume continues from c.ptfilm" in errors, process.returncode == 143)
-        self.assertGreater(self.samples_kept("c.ptfilm"), 0)
-        self.expect(0, *options, "--checkpoint", "c.ptfilm", "--resume")
-        self.assertEqual([self.contents(file) for file in ("a.png", "a.ptfilm")], expected)
 
     def test_a_target_error_is_reached_at_the_same_sample(self):
         options = [*self.options(100000), "--error", "3%", "--sampling", "uniform", "--stats", "a.json"]

@@ -7,14 +7,6 @@
 
 namespace {
 
-TEST(FilmFile, IsReadUnpacked) {
-    const TemporaryFolder folder;
-    const std::string film = "pt film " + std::string(1 << 20, 'x');
-    folder.write("a", film);
-    const auto bytes = std::as_bytes(std::span(film));
-    EXPECT_EQ(cli::read_film_file(folder.file("a")), std::vector(bytes.begin(), bytes.end()));
-}
-
 TEST(FilmFile, AnAbsurdSizeIsRefused) {
     const TemporaryFolder folder;
     std::string frame("\x28\xb5\x2f\xfd\xc0\x00", 6); // RFC 8878, 3.1.1.1: the size follows in eight bytes

@@ -156,14 +156,6 @@ TEST(SceneFile, ExposuresAreNumbersOrAutomatic) {
     EXPECT_EQ(refusal(R"({"film":{"white":[1,0,1]}})"), "1: film.white[1]: must be a number from 0.001 to 1000, is 0");
 }
 
-TEST(SceneFile, UnreadableFilesAreFileErrors) {
-    for (const char *path : {"/nonexistent.json", "/"}) {
-        const Refusal refused = refusal_of([&] { cli::read_scene_file(path); });
-        EXPECT_EQ(refused.code, cli::ExitCode::file);
-        EXPECT_TRUE(refused.message.starts_with(std::string("cannot read ") + path + ": ")) << refused.message;
-    }
-}
-
 TEST(SceneFile, SyntaxErrorsHaveLineAndColumn) {
     EXPECT_TRUE(refusal("").starts_with("1:1: syntax error"));
     EXPECT_TRUE(refusal("{\n  \"film\": NaN\n}").starts_with("2:11: syntax error"));

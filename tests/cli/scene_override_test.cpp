@@ -172,6 +172,7 @@ TEST(Animation, SpheresMoveWithinAFrame) {
     EXPECT_EQ(list(sphere(11).motion), (Numbers{1, 0, 0}));
     EXPECT_EQ(list(sphere(12).center), (Numbers{2, 0, 0}));
     EXPECT_EQ(list(sphere(12).motion), (Numbers{0, 3, 0}));
+    EXPECT_EQ(list(sphere(14).center), (Numbers{2, 6, 0}));
     EXPECT_EQ(list(sphere(14).motion), (Numbers{0, 0, 0}));
 }
 

@@ -6,7 +6,7 @@ import os
 import jsonschema
 import pt
 from command_line import SCENES, CommandLineTest, npy
-from manual_test import SECTIONS, beyond, names_in, range_of, scene_with, section_rows
+from manual_test import EITHER, SECTIONS, beyond, names_in, range_of, scene_with, section_rows
 from scene_file import read_scene
 
 SCENE = {
@@ -83,11 +83,13 @@ class Schema(CommandLineTest):
             element = schema.get("items") or schema["additionalProperties"] or schema
             element = element.get("anyOf", [element])[0]
             self.assertEqual(list(element["properties"]), [row[0].strip("`") for row in section_rows(section)])
-            for key, words, _, initial, _ in section_rows(section):
+            for key, words, domain, initial, _ in section_rows(section):
                 name = key.strip("`")
                 told = element["properties"][name].get("description", "")
                 default = "" if name in element.get("required", ()) or not initial else f"; default: {initial}"
                 self.assertEqual(plain(told), plain(words + default), name)
+                if "enum" in element["properties"][name]:
+                    self.assertEqual(names_in(domain), element["properties"][name]["enum"])
 
     def refusal(self, scene, is_valid):
         """Returns what refuses the scene, and the message. The library is asked only if the schema refuses the scene and the reader does
@@ -106,9 +108,13 @@ class Schema(CommandLineTest):
             return refused, str(error)
         return None, ""
 
-    def test_ranges_are_those_of_the_manual(self):
+    def test_examples_and_ranges_are_those_of_the_manual(self):
         found = 0
         for section in SECTIONS:
+            examples = {names_in(row[0])[0]: json.loads(row[4].strip("`")) for row in section_rows(section)}
+            for left_out in EITHER.get(section, ([],)):
+                some = {key: value for key, value in examples.items() if key not in left_out}
+                self.assertEqual(self.refusal(json.loads(scene_with(section, some)), False), (None, ""))
             rows = {names_in(row[0])[0]: row[2] for row in section_rows(section)}
             limits = {key: (0.0, 1e18) if "color" in text else range_of(text) for key, text in rows.items()}
             limits = {key: ends for key, ends in limits.items() if ends}

@@ -52,7 +52,7 @@ class ExitCodes(CommandLineTest):
             pass
         for _ in range(3):
             process.send_signal(signal.SIGTERM)
-        process.communicate(timeout=PATIENCE)
+        self.assertIn("; --resume continues from c.ptfilm\n", process.communicate(timeout=PATIENCE)[1])
         self.assertEqual(process.returncode, 143)
         self.assertEqual(self.files(), ["a.png", "c.ptfilm"])
 
