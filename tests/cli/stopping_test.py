@@ -5,8 +5,8 @@ import subprocess
 
 from command_line import COURSEWORK, PATIENCE, PT, CommandLineTest, read_png
 
-ENDLESS = ("--spp", "1000000", "--time", "0.5")
-SLOW = {"FAKE_PT_SAMPLE_MS": 20}
+ENDLESS = ("--spp", "1000000", "--time", "0.05")
+SLOW = {"FAKE_PT_SAMPLE_MS": 5}
 
 
 class ExitCodes(CommandLineTest):

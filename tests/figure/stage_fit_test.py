@@ -6,12 +6,13 @@ import pt
 from pt.figures._cell import Cell
 from pt.figures._drawn import prepare
 from pt.figures._figure import view_of
-from pt.figures._layout import MARGIN, VERTICAL_FOV, Layout
+from pt.figures._layout import MARGIN, Layout
 from pt.figures._options import VIEWS, Options
 from pt.figures._particles import Particles
 from pt.figures._radii import typical_radius
 from pt.figures._series import frames, turntable
 from pt.figures._view import up_vector
+from rays import rims
 
 RANDOM = np.random.default_rng(3)
 
@@ -30,18 +31,8 @@ def layout_of(particles, **look):
     return drawn, Layout.of(view, view.reaches(drawn.balls), look.style, look.floor)
 
 
-def rims(camera, size, centers, radii):
-    right, above, back = camera.axes()
-    ways = centers - np.array(camera.position)
-    depth = -(ways @ back)
-    for axis, aspect in ((right, size[0] / size[1]), (above, 1.0)):
-        for sign in (-1, 1):
-            x = sign * (ways @ axis)
-            if camera.vertical_extent is not None:
-                yield (x + radii) / (0.5 * aspect * camera.vertical_extent)
-            else:  # Seen from the pinhole, a ball at x and z reaches the angle atan(x / z) + asin(r / |x, z|).
-                angle = np.arctan2(x, depth) + np.arcsin(radii / np.hypot(x, depth))
-                yield np.tan(angle) / (aspect * np.tan(VERTICAL_FOV / 2))
+def aspect_of(layout):
+    return layout.size[0] / layout.size[1]
 
 
 class Fit(unittest.TestCase):
@@ -54,7 +45,7 @@ class Fit(unittest.TestCase):
                         with self.subTest(kind=kind, view=view, projection=projection, size=size):
                             _, layout = layout_of(Particles(centers), radius=radii, view=view, projection=projection,
                                                   size=size)
-                            sides = [float(rim.max()) for rim in rims(layout.camera, layout.size, centers, radii)]
+                            sides = [float(rim.max()) for rim in rims(layout.camera, aspect_of(layout), centers, radii)]
                             used = 1 - 2 * MARGIN
                             self.assertLess(max(sides), used + 1e-9)
                             touched = [abs(low - used) < 1e-9 and abs(high - used) < 1e-9
@@ -65,7 +56,7 @@ class Fit(unittest.TestCase):
         cell = Cell(np.array([-3.0, 0, 0]), np.array([[6.0, 0, 0], [2, 5, 0], [0, 1, 4]]), np.ones(3, bool))
         drawn, layout = layout_of(Particles(np.zeros((1, 3)), cell=cell), radius=0.1, box="lines")
         corners = np.array([cell.origin + np.array(k) @ cell.vectors for k in np.ndindex(2, 2, 2)])
-        self.assertAlmostEqual(max(float(rim.max()) for rim in rims(layout.camera, layout.size, corners, 0.0)),
+        self.assertAlmostEqual(max(float(rim.max()) for rim in rims(layout.camera, aspect_of(layout), corners, 0.0)),
                                1 - 2 * MARGIN)
         np.testing.assert_array_equal(np.sort(drawn.balls.points, axis=0), np.sort(corners, axis=0))
 
@@ -150,7 +141,7 @@ class Series(unittest.TestCase):
             self.assertEqual(each.layout, first.layout)
             self.assertEqual((each.drawn.legend.low, each.drawn.legend.high), (-2.0, 595.0))
             self.assertEqual(float(each.drawn.radii[0]), typical_radius(trajectory[0].positions))
-            sides = [float(rim.max()) for rim in rims(each.layout.camera, (90, 60), particles.positions,
+            sides = [float(rim.max()) for rim in rims(each.layout.camera, 1.5, particles.positions,
                                                       each.drawn.radii[0])]
             self.assertLess(max(sides), 1 - 2 * MARGIN + 1e-9)
         self.assertAlmostEqual(max(sides), 1 - 2 * MARGIN)
@@ -169,7 +160,7 @@ class Series(unittest.TestCase):
             spans = []
             for each in staged:
                 self.assertEqual(each.layout.size, staged[0].layout.size)
-                spans.append([float(rim.max()) for rim in rims(each.layout.camera, each.layout.size, centers, radii)])
+                spans.append([float(rim.max()) for rim in rims(each.layout.camera, aspect_of(each.layout), centers, radii)])
             self.assertLess(np.max(spans), 1 - 2 * MARGIN + 1e-9)
             self.assertGreater(np.max(spans), 0.995 * (1 - 2 * MARGIN))  # The farthest ball lies between 40 tried turns, which costs up to
                                                                          # (pi / 40)^2 / 2.

@@ -10,6 +10,7 @@ from pt.figures._options import Options
 from pt.figures._overlay import PER_SIDE, Overlaid, line_width, read_shares
 from pt.figures._particles import Particles
 from pt.figures._rods import cell_edges
+from rays import rays, to_ball
 
 SIZE = (60, 44)
 CELL = Cell(np.array([-2.0, -2, -2]), np.array([[4.0, 0, 0], [1, 4, 0], [0, 0.5, 4]]), np.ones(3, bool))
@@ -27,20 +28,6 @@ def shares_of(staged, context):
 
 def staged_of(projection, size, **options):
     return Staged.of(Particles(CENTERS, cell=CELL), Options(radius=RADII, size=size, projection=projection, **options))
-
-
-def rays(camera, size):
-    right, above, back = camera.axes()
-    rows, columns = np.indices((size[1] * PER_SIDE, size[0] * PER_SIDE)) + 0.5
-    x, y = 2 * columns / columns.shape[1] - 1, 1 - 2 * rows / rows.shape[0]
-    aspect, position = size[0] / size[1], np.array(camera.position)
-    if camera.vertical_extent is not None:
-        half = camera.vertical_extent / 2
-        origins = position + (x * aspect * half)[..., None] * right + (y * half)[..., None] * above
-        return origins, np.broadcast_to(-back, origins.shape)
-    half = np.tan(camera.vertical_fov / 2)
-    ways = (x * aspect * half)[..., None] * right + (y * half)[..., None] * above - back
-    return np.broadcast_to(position, ways.shape), ways / np.linalg.norm(ways, axis=-1, keepdims=True)
 
 
 def first_hits(origins, ways, capsules=((), (), 0.0)):
@@ -62,13 +49,6 @@ def first_hits(origins, ways, capsules=((), (), 0.0)):
     return np.where(np.isfinite(distances.min(axis=-1)), distances.argmin(axis=-1), -1)
 
 
-def to_ball(start, way, radius):
-    """Distances from outside to a ball at the origin. `way` has unit vectors."""
-    along = -(start * way).sum(axis=-1)
-    square = radius**2 - ((start * start).sum(axis=-1) - along**2)
-    return np.where(square >= 0, along - np.sqrt(np.maximum(square, 0)), np.inf)
-
-
 def share(hits, size=SIZE):
     return hits.reshape(size[1], PER_SIDE, size[0], PER_SIDE).mean(axis=(1, 3))
 
@@ -84,10 +64,10 @@ class Lines(unittest.TestCase):
             staged = staged_of(projection, SIZE)
             shapes = shares_of(staged, self.context).shapes
             edges = staged.scene.sphere_arrays[1]
-            shown = first_hits(*rays(staged.layout.camera, SIZE), (*cell_edges(CELL), edges.radius[0]))
+            shown = first_hits(*rays(staged.layout.camera, *np.multiply(SIZE, PER_SIDE)), (*cell_edges(CELL), edges.radius[0]))
             self.assertEqual(shapes.max(), 1.0)  # inside balls
             self.assertLess(np.abs(shapes - share(shown >= 0)).max(), 2.5 / 16)
-            wider = first_hits(*rays(staged.layout.camera, SIZE), (*cell_edges(CELL), edges.radius[0] * 1.2))
+            wider = first_hits(*rays(staged.layout.camera, *np.multiply(SIZE, PER_SIDE)), (*cell_edges(CELL), edges.radius[0] * 1.2))
             self.assertGreater(np.abs(shapes - share(wider >= 0)).max(), 2.5 / 16)
 
     def test_edges_have_their_width_in_pixels(self):
@@ -124,7 +104,7 @@ class Lines(unittest.TestCase):
             for name in ("shapes", "outlines"):
                 np.testing.assert_array_equal(getattr(shares, name), getattr(whole, name))
             capsules = *cell_edges(CELL), staged.scene.sphere_arrays[1].radius[0]
-            shown = first_hits(*rays(staged.layout.camera, size), capsules)
+            shown = first_hits(*rays(staged.layout.camera, *np.multiply(size, PER_SIDE)), capsules)
             balls = np.where(shown < len(CENTERS), shown, -2)  # -2 is an edge.
             edges, rims = np.zeros(balls.shape, bool), np.zeros(balls.shape, bool)
             for axis in (0, 1):

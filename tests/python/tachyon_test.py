@@ -10,6 +10,7 @@ import numpy as np
 import pt
 from pt.tachyon import _command, _lights
 from pt.tachyon._reader import parse, read
+from rays import rays, to_ball
 
 DATA = pathlib.Path(__file__).resolve().parents[2] / "tests/data/tachyon"
 # VMD writes scenes like this. z is reversed.
@@ -263,10 +264,8 @@ class Pictures(unittest.TestCase):
         red, green = shown.reshape(height, width, 3)[..., 0] // 10, shown.reshape(height, width, 3)[..., 1] // 10
         spheres = found.scene.sphere_arrays[0]
         shown = np.where(red > 0, red - 1, len(spheres) + green.astype(int) - 1)
-        starts, ways = self.rays(found.camera, width, height)
-        ways /= np.linalg.norm(ways, axis=-1, keepdims=True)
-        distances = [self.to_sphere(starts - center, ways, radius)
-                     for center, radius in zip(spheres.center, spheres.radius)]
+        starts, ways = rays(found.camera, width, height, 1, 0)
+        distances = [to_ball(starts - center, ways, radius) for center, radius in zip(spheres.center, spheres.radius)]
         with np.errstate(divide="ignore"):
             distances += [-(starts @ plane.normal + plane.offset) / (ways @ plane.normal) for plane in found.scene.planes]
         distances = np.array(distances)
@@ -278,23 +277,6 @@ class Pictures(unittest.TestCase):
             miss = np.linalg.norm(toward - np.sum(toward * ways, -1)[..., None] * ways, axis=-1)
             certain &= np.abs(miss - radius) > 1e-3
         return int(np.sum(certain & (distances.argmin(axis=0) != shown))), np.mean(certain) > 0.95
-
-    @staticmethod
-    def rays(camera, width, height):
-        right, up, back = camera.axes()
-        x = (np.arange(width) + 1) / width * 2 - 1
-        y = 1 - np.arange(height) / height * 2
-        half = math.tan(camera.vertical_fov / 2) if camera.vertical_extent is None else camera.vertical_extent / 2
-        offset = half * (width / height * x[None, :, None] * right + y[:, None, None] * up)
-        start = np.broadcast_to(camera.position, offset.shape)
-        return (start, offset - back) if camera.vertical_extent is None else (start + offset, np.zeros_like(offset) - back)
-
-    @staticmethod
-    def to_sphere(start, way, radius):
-        b, c = np.sum(start * way, -1), np.sum(start * start, -1) - radius**2
-        with np.errstate(invalid="ignore"):
-            root = np.sqrt(b * b - c)
-        return np.where(-b - root > 0, -b - root, -b + root)
 
 
 class Damage(unittest.TestCase):
