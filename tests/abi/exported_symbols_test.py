@@ -54,7 +54,7 @@ def build(folder, compiler, source, soname):
 
 
 def check_the_check(compiler):
-    """Negative control: functions are added, missing or of another type, and the soname is another one."""
+    """Negative control: functions are added, missing or of another type, and the soname differs."""
     one, two, new = (f"int pt_{name}(void) {{ return 1; }}\n" for name in ("one", "two", "new"))
     libraries = ("shared library", "static library")
     with tempfile.TemporaryDirectory() as name:

@@ -1,5 +1,3 @@
-"""The noise is measured between independent runs."""
-
 import math
 import statistics
 

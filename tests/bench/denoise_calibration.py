@@ -40,7 +40,7 @@ class Case:
     absolute: float
     gain: float  # mean square of the raw image's relative error, divided by the denoised image's
     light: float
-    brighter: int  # number of values that exceed all values of both halves in the 3x3 pixels around
+    brighter: int  # number of values above all values of both halves in the 3x3 pixels around them
     stated: float  # stated error / true error
     holds: bool
     is_uncertain: bool

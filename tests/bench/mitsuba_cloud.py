@@ -1,8 +1,7 @@
-"""Renders clouds of spheres with Mitsuba for scale.py. Reads lines of JSON and answers each with one line.
+"""Renders clouds of spheres with Mitsuba for scale.py. Reads lines of JSON, and prints the seconds of each on a line.
 
-    {"count": N}                                        builds the scene, answers the seconds
-    {"length": L, "samples": S, "seed": I, "image": F}  renders and answers the seconds; writes floats to F, if given
-
+    {"count": N}                                        builds the scene
+    {"length": L, "samples": S, "seed": I, "image": F}  renders; writes floats to F, if given
 """
 
 import argparse

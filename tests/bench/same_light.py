@@ -1,10 +1,8 @@
 """Measures how often pt.compare calls equal light different, which changes it finds, and how many samples this takes.
 
 Without --changes and --samples it tests N pairs of images of equal light for each scene and kind of pair. --changes counts the scenes that
-show a change of their brightest lamp, a material, a tile or a density in a kernel. --samples doubles the samples of two images until they
+show a change of their brightest lamp, a material, a tile, or a kernel's density. --samples doubles the samples of two images until they
 show a change of a given size.
-
-
 """
 
 import argparse

@@ -5,7 +5,7 @@ from same_light import KINDS, Images, pt, scenes_of
 SCENES = ["coursework", "caustic-small", "corner-ball"]
 PAIRS = 6
 RATE = 0.05
-MOST = 14  # P(more false alarms of 90 pairs at the stated rate) < 10^-4
+MOST = 14  # P(more false alarms in 90 pairs at the stated rate) < 10^-4
 
 
 def blocks(image):

@@ -5,7 +5,7 @@ from command_line import PT, SCENES, CommandLineTest
 
 COURSE = os.path.join(SCENES, "..", "..", "shaders", "coursework")
 DIFFERENCES = ("1-emission", "2-directions", "3-throughput", "4-numbers", "5-filter", "6a-cosine", "6b-lamps", "7-motion")
-# Maps a difference to the steps that must be right after it. By default this is the difference's own step.
+# Maps a difference to the steps that it makes right. By default this is the step of the same name.
 STEPS = {"6b-lamps": ("6b", "6c")}
 
 ASKING = """for (uint lamp = 0u; lamp < LAMP_COUNT; ++lamp) {
@@ -43,7 +43,7 @@ MISTAKES = (
     for (uint lamp = chosen; lamp == chosen""").replace("light +=", "light += float(LAMP_COUNT) *"), "lamps chosen alike"),
     ("7-motion", "time = next_number();", "time = 0.5;", "one time for all samples"),
 )
-# No pattern predicts the error of this mistake.
+# None of the course's known mistakes fits this one.
 UNKNOWN = ("3-throughput", "material.diffuse / PI +", "material.diffuse.bgr / 2.2 +")
 
 

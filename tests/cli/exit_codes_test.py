@@ -56,7 +56,7 @@ CASES = [
     (130, RENDER, {"FAKE_PT_SIGNAL": "2:5"}, "pt: stopped by SIGINT after 1 of 4 samples", ["a.png"]),
     (143, RENDER, {"FAKE_PT_SIGNAL": "15:5"}, "pt: stopped by SIGTERM after 1 of 4 samples", ["a.png"]),
     (130, RENDER, {"FAKE_PT_SIGNAL": "2:3"}, "pt: stopped by SIGINT after 0 of 4 samples per pixel; nothing was written\n", []),
-    (143, RENDER, {"FAKE_PT_FAIL": "set_camera:-10", "FAKE_PT_SCENE_SIGNAL": "15"},  # the signal comes first
+    (143, RENDER, {"FAKE_PT_FAIL": "set_camera:-10", "FAKE_PT_SCENE_SIGNAL": "15"},  # the signal precedes the failure
      "pt: stopped by SIGTERM after 0 of 4 samples per pixel; nothing was written\n", []),
 ]
 

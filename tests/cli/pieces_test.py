@@ -35,7 +35,7 @@ class Pieces(CommandLineTest):
         self.assertEqual((stats["height"], stats["spp"], stats["rejected_samples"]), (33, 2, 4 * 3))
 
     def test_what_is_left_of_an_interruption_is_black(self):
-        submission = 4 * 4 + 6  # in the second piece: a piece has four samples, and a sample has four submissions
+        submission = 4 * 4 + 6  # in the second piece; a piece has four samples of four submissions each
         code = self.run_pt("render", COURSEWORK, *SIZE, "--spp", "4", "--progress", "json", "-o", "a.png",
                            "--piece-rows", "11", FAKE_PT_SAMPLE_MS=120,
                            FAKE_PT_SIGNAL=f"{int(signal.SIGINT)}:{submission}")

@@ -92,8 +92,7 @@ class Schema(CommandLineTest):
                     self.assertEqual(names_in(domain), element["properties"][name]["enum"])
 
     def refusal(self, scene, is_valid):
-        """Returns what refuses the scene, and the message. The library is asked only if the schema refuses the scene and the reader does
-        not. The program has the same reader."""
+        """Returns what refuses the scene, and the message. Only scenes that the schema refuses and the reader accepts reach the library."""
         self.write("s.json", json.dumps(scene))
         refused = "reader"
         try:

@@ -208,6 +208,6 @@ class Radii(unittest.TestCase):
     def test_one_far_away_is_not_the_fourth_neighbour_of_all_others(self):
         for count in (5, 8, 11):
             cloud = CUBE[:count].copy()
-            cloud[1] = cloud[0] + 0.01  # The fourth neighbor decides, as the nearest may be close by chance.
+            cloud[1] = cloud[0] + 0.01  # The fourth neighbor decides, because the nearest may be close by chance.
             cloud[-1] = 1000
             self.assertLess(self.automatic(cloud)[0], 2)

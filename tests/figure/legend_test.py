@@ -17,7 +17,7 @@ except ImportError:
     sys.exit(77)
 
 VIRIDIS = matplotlib.colormaps["viridis"]
-TABLE = np.floor(255 * VIRIDIS(np.arange(256))[:, :3] + 0.5).astype(int)  # colors that are drawn
+TABLE = np.floor(255 * VIRIDIS(np.arange(256))[:, :3] + 0.5).astype(int)  # the drawn colors
 BAR = ColorBar("energy (eV)", -1.0, 2.5, Normalize(-1.0, 2.5), VIRIDIS, None)
 NAMES = Swatches("type", ("a<b>&c", "$x", "Zn"), np.array([[255, 0, 0], [0, 255, 0], [0, 0, 255]], np.uint8))
 

@@ -73,7 +73,7 @@ class Marks(unittest.TestCase):
                 np.testing.assert_allclose(way, ARROW * page.em * np.array([unit @ right, -(unit @ above)]), atol=1e-6)
 
     def test_vectors_are_over_the_picture_at_the_exact_size(self):
-        """8.5 cm are 240.945 points. The picture within is the one without words, bit for bit."""
+        """8.5 cm are 240.945 points. The embedded picture equals the picture without words, bit for bit."""
         options = {"color": "v", "colorbar": True, "labels": "n", "axes": True, "scale_bar": "2 nm", "title": "E"}
         for background in ("white", "transparent"):
             figure, _, _ = self.page(**options, size=None, width="8.5cm", dpi=50, background=background)

@@ -111,7 +111,7 @@ class Pictures(unittest.TestCase):
         self.assertTrue((few.sample_count == 4).all() and few.noise.high == np.inf)
 
     def test_an_automatic_exposure_hides_no_noise(self):
-        """Its own exposure for the darker and for the brighter picture would cancel most of their difference."""
+        """Separate exposures of the darker and the brighter picture would cancel most of their difference."""
         found = pt.figure(POSITIONS, radius=0.3, size=(64, 48), samples=16, exposure=None)
         same = pt.figure(POSITIONS, radius=0.3, size=(64, 48), samples=16, exposure=automatic_exposure(found.radiance))
         self.assertEqual(found.noise, same.noise)

@@ -28,7 +28,7 @@ class Panels(unittest.TestCase):
         return panels(data, columns, **{"samples": 1, "size": (240, 60), "context": self.context, **options})
 
     def test_data_sets_share_camera_radius_and_range(self):
-        """Each panel is the figure with the same options, but for lamps that follow from the extent of all data."""
+        """Each panel equals the figure with the same options, except that its lamps follow from the extent of all data."""
         found = self.panels(particles(1), particles(2), color="v", colorbar=True)
         first, second = found.figures
         self.assertEqual((first.camera, first.shape, found.titles), (second.camera, second.shape, ["times-1", "times-2"]))

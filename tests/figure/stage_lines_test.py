@@ -105,7 +105,7 @@ class Lines(unittest.TestCase):
                 np.testing.assert_array_equal(getattr(shares, name), getattr(whole, name))
             capsules = *cell_edges(CELL), staged.scene.sphere_arrays[1].radius[0]
             shown = first_hits(*rays(staged.layout.camera, *np.multiply(size, PER_SIDE)), capsules)
-            balls = np.where(shown < len(CENTERS), shown, -2)  # -2 is an edge.
+            balls = np.where(shown < len(CENTERS), shown, -2)  # -2 is an edge of the cell
             edges, rims = np.zeros(balls.shape, bool), np.zeros(balls.shape, bool)
             for axis in (0, 1):
                 for step in (1, -1):

@@ -31,7 +31,7 @@ def room_of(module):
 
 
 def imports_of(modules):
-    """For each module, the modules of `modules` (name: text) that it imports, also for types or in functions."""
+    """Maps each module to the `modules` that it imports, also for types or in functions. `modules` maps names to texts."""
     found = {}
     for module, text in modules.items():
         names = set()

@@ -65,7 +65,7 @@ class Licenses(unittest.TestCase):
         found = included() | linked(rules) | copied()
         self.assertGreaterEqual(len(found), 15)
         self.assertEqual(sorted(found - set(parts())), [])
-        # Every row must be used. Exempt are rows of wheels, and of other versions of a package's library.
+        # Every part must be found.
         names = {parts()[each] for each in found}
         self.assertEqual(names ^ set(parts().values()), set())
 

@@ -77,7 +77,7 @@ class Functions(unittest.TestCase):
             result, parameters = declared[function]
             self.assertEqual(len(types), len(parameters), function)
             for kind, parameter in zip(types, parameters):
-                if "*" in parameter:  # a pointer to a struct or a number, unless it is a handle or bytes
+                if "*" in parameter:  # a handle, bytes, or a pointer to a struct or a number
                     struct = re.sub(r"const |\*+\w+$", "", parameter).strip()
                     allowed = {"c_void_p", "c_char_p", "LP_c_void_p", f"LP_{struct}", f"LP_{self.KINDS.get(struct)}"}
                     self.assertIn(kind.__name__, allowed, f"{function}: {parameter}")

@@ -46,7 +46,7 @@ class Minnaert(unittest.TestCase):
     def difference(self, scene, estimator, expected):
         """Returns the largest difference in units of the bound, and the bound relative to the light."""
         (mean, error), (right, error_of_right) = self.light(scene, estimator), expected
-        bound = STANDARD_ERRORS * np.sqrt(3) * np.hypot(error, error_of_right)  # colors of a pixel may deviate together
+        bound = STANDARD_ERRORS * np.sqrt(3) * np.hypot(error, error_of_right)  # errors of a pixel's colors may be correlated
         return (abs(mean - right) / bound).max(), (bound / right).max()
 
     def test_estimators_agree_on_every_kind_of_scene(self):
@@ -59,7 +59,7 @@ class Minnaert(unittest.TestCase):
                     self.assertLess(share, 0.05)
 
     def test_a_floor_under_a_white_sky_has_the_radiance_of_the_page(self):
-        """The floor reflects half of the light upward, and a quarter at 60 degrees."""
+        """The albedo 1/2 gives the radiance 1/2 from above, and 1/4 at 60 degrees."""
         floor = pt.Scene([pt.Sphere((0, 0, 0), 1000, pt.Material(emission=1))], [pt.Plane((0, 1, 0), 0, pt.Material(diffuse=0.5))])
         for position, radiance in ((0, 1, 0), 0.5), ((0, 1, 3**0.5), 0.25):
             camera = pt.Camera(position, (0, 0, 0), (1, 0, 0), vertical_extent=1)

@@ -134,7 +134,7 @@ class Sections(unittest.TestCase):
         distance = 100 * math.sqrt(170)  # a hundred times the distance of the farthest light, sqrt(1 + 13^2)
         self.assertAlmostEqual(sun.center[1], 2 + distance, 9)
         self.assertAlmostEqual(sun.radius, distance / 50, 9)
-        share = 1 - 0.5 / 2.25  # 0.5 of the background and up to 2.25 of both lights
+        share = 1 - 0.5 / 2.25  # the background has up to 0.5, and both lights have up to 2.25
         np.testing.assert_allclose(sun.material.emission, share * np.array([2500, 1250, 625]), rtol=1e-12)
         self.assertTrue(sun.material.hidden_from_camera)
         self.assertEqual((lamp.center, lamp.radius), ((2, 2, 6), 0.5))

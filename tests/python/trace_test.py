@@ -158,7 +158,7 @@ class Traces(unittest.TestCase):
                 self.check_path(tracer.trace(ROOM, CAMERA, settings, 5, 7, 0), ROOM, CAMERA, 1)
 
     def seed_word(self):
-        """The first word of the library's hash of seed 0, the finalizer of splitmix64."""
+        """Returns the first word of seed 0's hash by the finalizer of splitmix64."""
         mask = 2**64 - 1
         z = 0x9e3779b97f4a7c15
         z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9 & mask

@@ -31,7 +31,7 @@ class Types(unittest.TestCase):
             done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--no-error-summary", "--cache-dir", os.devnull,
                                    PACKAGE / "pt", PACKAGE / "examples" / "particles.py", "uses.py"], text=True,
                                   capture_output=True, cwd=folder, env={**os.environ, "MYPYPATH": str(PACKAGE)})
-        said = [line for line in done.stdout.splitlines() if " note: \"" not in line]  # where a function is defined
+        said = [line for line in done.stdout.splitlines() if " note: \"" not in line]  # notes say where functions are defined
         self.assertEqual([line for line in said if not line.startswith("uses.py:")], [], done.stderr)
         for line, words in zip(said, ('"builtins.float"', '"pt._film.Film"', 'Missing positional argument "material"',
                                       'incompatible type "RenderSettings"; expected "Camera"',

@@ -91,6 +91,6 @@ class Command(SceneTest):
                 folder.symlink_to(target)
                 os.lchown(folder, owner_of_link, 0)
             os.chown(folder, owner, 0)
-            self.refused(6, "pt-view: --edit: pt-shaders is another user's: use another folder\n", self.scene, "--edit")
+            self.refused(6, "pt-view: --edit: pt-shaders belongs to another user: use another folder\n", self.scene, "--edit")
             (shutil.rmtree if owner_of_link is None else os.remove)(folder)
             shutil.rmtree(target, ignore_errors=True)

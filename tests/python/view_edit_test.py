@@ -107,8 +107,8 @@ class Edits(SceneTest):
                 (pt.Light.EQUAL_BITS, 0.004, "same bits as the built-in kernel"),
                 (pt.Light.SAME, 0.00512, "same light as the built-in kernel to 0.51%"),
                 (pt.Light.DIFFERENT, 0.004, "different light: -3.1% +- 0.4% of the picture in G"),
-                (pt.Light.UNDECIDED, 0.031, "not enough samples yet: a change of 3.1% could hide"),
-                (pt.Light.UNDECIDED, np.inf, "not enough samples yet: any change could hide")):
+                (pt.Light.UNDECIDED, 0.031, "not enough samples yet: a change of 3.1% could be hidden"),
+                (pt.Light.UNDECIDED, np.inf, "not enough samples yet: any change could be hidden")):
             self.assertEqual(verdict_of(pt.Comparison(light, 1, smallest, smallest, 1e-6,
                                                       "different light: -3.1% +- 0.4% of the picture in G", ())), words)
 
@@ -147,4 +147,4 @@ class Edits(SceneTest):
         lamps = {**SCENE_FILE["materials"], "lamp": {"emission": [8, 6, 4]}}
         page.send({"save": "s.json", "text": text_of({**SCENE_FILE, "materials": lamps})})
         page.frame(lambda state: not state["faults"] and state["samples"] == 16)
-        np.testing.assert_array_equal(page.radiance(), 2 * before)  # Powers of two are exact.
+        np.testing.assert_array_equal(page.radiance(), 2 * before)  # powers of two are exact

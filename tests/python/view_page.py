@@ -1,4 +1,4 @@
-"""A browser's side of the page of `pt view`, for tests."""
+"""Plays the browser of `pt view` in tests."""
 
 import asyncio
 import json

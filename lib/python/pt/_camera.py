@@ -86,7 +86,7 @@ class Camera:
         return _axes(np.subtract(self.position, self.target), self.up)
 
     def _view_height(self, depth: Any) -> Any:
-        """Height of the image at depths. At depth 0 it is 0 if all rays start at a point."""
+        """Returns the image's height, which is 0 at depth 0 if all rays start at a point."""
         if self.projection == Projection.ORTHOGRAPHIC:
             return self.vertical_extent
         assert self.vertical_fov is not None

@@ -44,7 +44,7 @@ def _size(text: str) -> list[Override]:
 
 def _add_scene_options(command: argparse.ArgumentParser) -> None:
     """--set comes first, so that other options replace its values."""
-    group = command.add_argument_group("as of pt render")
+    group = command.add_argument_group("as in pt render")
     settings: dict[str, Any] = {"dest": "overrides", "action": "extend", "default": []}
     group.add_argument("--set", action="extend", default=[], type=lambda text: [Override(text)], metavar="PATH=VALUE")
     group.add_argument("--size", type=_size, metavar="WxH", **settings)

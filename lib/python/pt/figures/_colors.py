@@ -55,7 +55,7 @@ Legend: TypeAlias = "ColorBar | Swatches | None"
 
 
 def joined(legends: Sequence[Legend]) -> Legend:
-    """The first legend, with the names of all."""
+    """Returns the first legend, with the names of all legends."""
     all_swatches = [legend for legend in legends if isinstance(legend, Swatches)]
     if not isinstance(legends[0], Swatches):
         return legends[0]

@@ -18,7 +18,7 @@ from pt._scene import Scene
 
 MOST_NOISE: Final = 1.5  # steps of 1/255; by taste
 FIRST_SAMPLES: Final = 16  # fewest samples with a stated error
-MOST_SAMPLES: Final = 256  # fine textures hide the remaining noise
+MOST_SAMPLES: Final = 256  # of a pixel; fine textures hide the remaining noise
 WORST: Final = 1.5  # largest noise of a neighbourhood, relative to MOST_NOISE; by taste
 FLOOR: Final = 0.4  # like WORST, for an even floor, where noise shows most
 SHARE: Final = 1.03  # rounds aim at this multiple of the allowed square, because quasi-random samples do better than random ones
@@ -38,7 +38,7 @@ class Noise:
 
     @staticmethod
     def of(squares: Doubles) -> Noise:
-        """For the bounds, n = (sum of squares)^2 / (sum of fourth powers) equal pixels would have the same uncertainty."""
+        """The bounds are as wide as for n = (sum of squares)^2 / (sum of fourth powers) equal pixels."""
         if not squares.size:
             return Noise(0.0, 0.0, 0.0)
         mean, spread = float(squares.mean()), 1.96 * math.sqrt(float(np.square(squares).sum())) / squares.size

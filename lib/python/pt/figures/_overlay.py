@@ -44,8 +44,7 @@ class Shares:
 
 @dataclass(frozen=True)
 class Overlaid:
-    """
-    first    index of the first particle among all spheres and capsules
+    """first    index of the first particle among all spheres and capsules
     count    number of particles, bonds, vectors and edges of the cell, in this order
     radii    of shapes with outlines: all except edges of the cell
     steps    draws outlines only at larger steps of depth and between groups

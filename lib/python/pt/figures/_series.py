@@ -35,9 +35,9 @@ def frames(read: Callable[[], Iterator[Particles]], options: Options, trails: in
 
 
 class Panels(Picture):
-    """Figures with one camera, scale and range of colors.
+    """Figures with the same camera, scale and range of colors.
 
-    sources   particles with the column that colors them, or None, and with the title
+    sources   particles, the column that colors them or None, and the title
     """
 
     def __init__(self, sources: Sequence[tuple[Particles, str | None, str]], options: Options) -> None:
@@ -56,7 +56,7 @@ class Panels(Picture):
 
     @property
     def error_bounds(self) -> tuple[float, float]:
-        """Of the worst figure."""
+        """The largest of the figures."""
         worst: tuple[float, float] = max((each.error_bounds for each in self.figures), key=lambda bounds: float(bounds[1]))
         return worst
 
@@ -65,7 +65,7 @@ class Panels(Picture):
 
 
 def panels(data: Sequence[Any], columns: Sequence[str] = (), **options: Any) -> Panels:
-    """Renders a panel for each data set of load() or, with columns, for each column of the only data set. options: as of figure()."""
+    """Renders a panel for each data set of load() or, with columns, for each column of the only data set. options: as in figure()."""
     given = Options(**options)
     with context_of(given) as context:
         return Panels(sources_of(data, columns, given), given).draw(context)

@@ -102,4 +102,4 @@ def verdict_of(found: Comparison) -> str:
     if found.light == Light.SAME:
         return f"same light as the built-in kernel to {change}"
     hidden = f"a change of {change}" if math.isfinite(found.smallest_change) else "any change"
-    return f"not enough samples yet: {hidden} could hide"
+    return f"not enough samples yet: {hidden} could be hidden"

@@ -22,7 +22,7 @@ from pt.view._trace import kernels
 
 EPILOG = """\
 The server listens only on 127.0.0.1. Everybody who has its address can control it. From another machine use
-ssh -L PORT:127.0.0.1:PORT HOST with the port of the address. Ctrl-C ends it. Only the page's save buttons write files.
+ssh -L PORT:127.0.0.1:PORT HOST with the port of the address. Ctrl-C ends the server. Only the page's save buttons write files.
 """
 VECTOR_BITS = "LP_NATIVE_VECTOR_WIDTH"
 
@@ -37,15 +37,15 @@ def parser() -> argparse.ArgumentParser:
         prog="pt-view", description="Shows a scene, particles or a film in the browser while the picture refines.",
         epilog=EPILOG, allow_abbrev=False, formatter_class=argparse.RawDescriptionHelpFormatter)
     add = command.add_argument
-    add("what", metavar="SCENE|DATA|FILM|COURSE", help="a scene (.json), a film (.ptfilm), data as of pt figure, or a folder of pt course")
+    add("what", metavar="SCENE|DATA|FILM|COURSE", help="a scene (.json), a film (.ptfilm), data for pt figure, or a folder of pt course")
     add("--size", type=typed(two("x", int), "WxH"), metavar="WxH", help="pixels; by default the scene's")
     add("--spp", type=at_least(1, int), default=65536, metavar="N", help="most samples of a pixel (default: 65536)")
-    add("--device", metavar="NAME", help="what to render on, as of pt render")
-    add("--shader-dir", metavar="DIR", help="kernels to compile and to edit in the page, with the scene")
-    add("--edit", action="store_true", help="the same with a copy of the kernels, in the folder pt-shaders, created if missing")
-    add("--port", type=at_least(0, int), default=0, metavar="N", help="by default a free one")
-    add("--no-browser", action="store_true", help="prints the address alone")
-    groups = {name: command.add_argument_group(f"{name} of DATA, as of pt figure") for name in ("data", "particles", "view", "look")}
+    add("--device", metavar="NAME", help="device, as in pt render")
+    add("--shader-dir", metavar="DIR", help="folder of kernels that replace the library's; the page edits them and the scene")
+    add("--edit", action="store_true", help="like --shader-dir pt-shaders; if missing, this folder becomes a copy of the kernels")
+    add("--port", type=at_least(0, int), default=0, metavar="N", help="port; by default a free one")
+    add("--no-browser", action="store_true", help="only prints the address")
+    groups = {name: command.add_argument_group(f"{name} of DATA, as in pt figure") for name in ("data", "particles", "view", "look")}
     for each in fields(Options):
         if each.metadata["group"] in groups and each.name != "size":
             add_option(groups[each.metadata["group"]], each)
@@ -65,7 +65,7 @@ def shader_dir(given: argparse.Namespace) -> pathlib.Path | None:
     folder, source = pathlib.Path("pt-shaders"), kernels()
     if folder.is_symlink() or folder.exists():
         if is_of_another(folder):
-            refuse(f"--edit: {folder} is another user's: use another folder", FILES)
+            refuse(f"--edit: {folder} belongs to another user: use another folder", FILES)
     else:
         if source is None:
             refuse("--edit: the kernels are not installed; --shader-dir DIR names a copy of shaders/", FILES)

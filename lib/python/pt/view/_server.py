@@ -116,7 +116,7 @@ class Server:
         if not re.fullmatch(NAMES, host) or origin not in (None, f"http://{host}"):
             raise web.HTTPForbidden(text="pt view: this host or origin is refused\n")
         if not hmac.compare_digest(request.match_info.get("token", "").encode(), self._token.encode()):
-            raise web.HTTPForbidden(text="pt view: the address needs its token\n")
+            raise web.HTTPForbidden(text="pt view: the address must have the token\n")
         return await handler(request)
 
     async def _page(self, request: web.Request) -> web.StreamResponse:
@@ -195,7 +195,7 @@ class Server:
         try:
             message = json.loads(text)
             if not isinstance(message, dict):
-                raise ValueError("a message is an object")
+                raise ValueError("message: must be an object")
             if "next" in message:
                 page.wanted.set()
             elif "display" in message:
@@ -229,7 +229,7 @@ class Server:
     def _file(self, name: Any) -> pathlib.Path:
         files = self._files()
         if not isinstance(name, str) or name not in files:
-            raise ValueError("no such file is open to the page")
+            raise ValueError("the page may not access this file")
         return files[name]
 
 

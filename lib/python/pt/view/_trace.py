@@ -116,7 +116,7 @@ def trace_of(film: Array, camera: Camera) -> Trace:
     words = (rows[:, 0] << 8 | rows[:, 1] & 255).astype(np.uint32)
     kinds = rows[:, 1, 0] >> 8
     if not len(rows) or kinds[0] != HEADER or words[0, 0] != 2**31:
-        raise ValueError("the kernel does not give its samples to traced_sample() (trace.glsl)")
+        raise ValueError("the kernel does not pass its samples to traced_sample() (trace.glsl)")
     count = int(words[0, 1])
     _, _, back = camera.axes()
     origin = np.array(camera.position) - (0.0 if camera._view_height(0.0) else float(words[0, 2:].view(np.float32)[0])) * back
