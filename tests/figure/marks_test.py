@@ -97,7 +97,7 @@ class Marks(unittest.TestCase):
                                ("labels = 'm 2': position 1, 'm'", {"labels": "m 2=n"})):
             with self.subTest(words=words), self.assertRaisesRegex(ValueError, words):
                 prepare(Particles(ROW, {"n": np.arange(3)}), Options(radius=1.0, **options))
-        with self.assertRaisesRegex(ValueError, "labels: 1,001 words; there can be 1,000"):
+        with self.assertRaisesRegex(ValueError, "labels: has 1,001 words: must have at most 1,000"):
             prepare(Particles(np.eye(3).repeat(334, axis=0)[:1001]), Options(radius=1.0, labels="x"))
 
 
