@@ -174,10 +174,3 @@ class RealDeviceLayers(LayersTest):
             self.assertEqual(read_exr_channels(self.path("whole.exr")), read_exr_channels(self.path(name)))
         self.expect(2, "merge", "whole.ptfilm", "bare.ptfilm", "-o", "c.exr", error="bare.ptfilm: coverage = nothing: must be 1")
         self.expect(2, "merge", "bare.ptfilm", "-o", "c.exr", "--alpha", error="--alpha: the films have no alpha")
-
-    def test_other_commands_read_the_mean(self):
-        self.render("-o", "a.exr", "--layers", ALL)
-        self.render("-o", "b.exr")
-        self.expect(0, "compare", "a.exr", "b.exr", "--max-relative-mse", "0")
-        self.expect(0, "compare", "a.exr", "a.exr", "--layer", "N")
-        self.assertEqual(self.errors, "")

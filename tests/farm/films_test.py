@@ -25,9 +25,10 @@ from pt.farm import _coordinator, _task
 from pt.farm._crew import LOOK_SECONDS, MOST_FAILURES
 from pt.farm._part import Part
 from pt.farm._sum import Sum, write_film
-from pictures import CAMERA, GLOSSY, SCENE
+from pictures import CAMERA, GLOSSY, SCENE, ready, settings
 
-SETTINGS = pt.RenderSettings(136, 100)
+SHAPE = {"width": 136, "height": 100}
+SETTINGS = settings(**SHAPE)
 JOB = farm.Job(SCENE, CAMERA, SETTINGS)
 SAMPLES, ERROR = 256, 0.006
 QUICK = farm.Options(part_seconds=0.1, patience=0.5)
@@ -79,9 +80,7 @@ def changed(name, part, film):
 
 def of_another_picture(name, part, film):
     with pt.Context() as context:
-        context.set_scene(SCENE)
-        context.set_camera(CAMERA)
-        context.set_render(dataclasses.replace(SETTINGS, seed=1, first_sample=part.first))
+        ready(context, seed=1, first_sample=part.first, **SHAPE)
         counts = np.zeros((13, 17), np.uint32)
         counts.ravel()[part.tiles] = part.end - part.first
         context.accumulate_tiles(counts)
@@ -120,10 +119,7 @@ def own_cluster(workers):
 
 
 def whole(samples, target_error=0.0):
-    with pt.Context() as context:
-        context.set_scene(SCENE)
-        context.set_camera(CAMERA)
-        context.set_render(SETTINGS)
+    with ready(pt.Context(), **SHAPE) as context:
         context.accumulate(samples, target_error=target_error)
         return context.film()
 
@@ -246,11 +242,8 @@ class Farm(unittest.TestCase):
             self.assertEqual(set(seen), {(SAMPLES, SAMPLES)})
 
     def test_goes_on_from_tiles_that_are_ahead(self):
-        with tempfile.TemporaryDirectory() as folder, pt.Context() as context:
+        with tempfile.TemporaryDirectory() as folder, ready(pt.Context(), **SHAPE) as context:
             path = os.path.join(folder, "kept.ptfilm")
-            context.set_scene(SCENE)
-            context.set_camera(CAMERA)
-            context.set_render(SETTINGS)
             counts = np.zeros((13, 17), np.uint32)
             counts[4:6, 3:9] = 100
             context.accumulate_tiles(counts)

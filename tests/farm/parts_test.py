@@ -2,6 +2,7 @@ import unittest
 
 import numpy as np
 import pt
+from pictures import ready
 from pt.farm._part import Part, cells_of, further_parts, has_only, missing_parts
 
 
@@ -10,10 +11,7 @@ class Parts(unittest.TestCase):
         goals = np.full((13, 17), 24, np.uint32)
         one = missing_parts(cells_of(None, goals.shape), 8, goals)
         self.assertEqual([(part.first, part.end, len(part.tiles)) for part in one], [(8, 32, 221)])
-        with pt.Context() as context:
-            context.set_scene(pt.Scene([pt.Sphere((0, 1, 0), 1, pt.Material(emission=1))]))
-            context.set_camera(pt.Camera(position=(0, 1.5, 5), target=(0, 1, 0)))
-            context.set_render(pt.RenderSettings(136, 100, first_sample=10))
+        with ready(pt.Context(), width=136, height=100, first_sample=10) as context:
             counts = np.zeros((13, 17), np.uint32)
             counts[12, 3:] = 5
             context.accumulate_tiles(counts)

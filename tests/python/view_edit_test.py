@@ -1,12 +1,11 @@
 import contextlib
-import dataclasses
 import os
 import shutil
 import subprocess
 
 import numpy as np
 import pt
-from pictures import CAMERA, SCENE, SCENE_FILE, settings
+from pictures import SCENE_FILE, ready
 from pt.view import View
 from pt.view._built_in import verdict_of
 from pt.view._rejected import rejected_samples
@@ -89,11 +88,8 @@ class Edits(SceneTest):
             glaring = (page.pixels[:, :, :3] == [255, 0, 255]).all(axis=2)
             self.assertTrue(glaring[15, :3].all() and glaring.sum() == 3)
         with pt.Context(shader_dir=self.kernels) as context:
-            context.set_scene(SCENE)
-            context.set_camera(CAMERA)
             for first, samples in ((0, [[5, 0, 8], [16, 3, 1]]), (3, [[5, 13, 9], [16, 64, 1]])):
-                context.set_render(dataclasses.replace(settings(), first_sample=first))
-                context.accumulate_tiles(samples)
+                ready(context, first_sample=first).accumulate_tiles(samples)
                 expected = np.zeros((16, 24), int)
                 expected[15, :3] = samples[1][0]
                 np.testing.assert_array_equal(rejected_samples(context.film()), expected)
