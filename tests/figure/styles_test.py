@@ -1,4 +1,5 @@
 import unittest
+from dataclasses import replace
 
 import numpy as np
 import pt
@@ -6,7 +7,7 @@ from pt._display import linear
 from pt.figures import _elements as elements
 from pt.figures._cell import Cell
 from pt.figures._colors import colors_of
-from pt.figures._compose import compose, lay_over
+from pt.figures._compose import compose, lay_over, smoothed
 from pt.figures._drawn import prepare
 from pt.figures._figure import Staged
 from pt.figures._options import STYLES, Options
@@ -107,6 +108,30 @@ class Colors(unittest.TestCase):
         figure = pt.figure(balls, radius=0.5, view="front", projection="orthographic", size=(90, 30), samples=16, depth_cue=1.0)
         fades = [float(figure._shares.fade[15, column]) for column in (45 - round(36.9), 45, 45 + round(36.9))]
         np.testing.assert_allclose(fades, (0.0, 0.43, 0.86), atol=0.06)
+
+
+class Floors(unittest.TestCase):
+    def test_noise_of_shadows_is_smoothed_and_edges_stay(self):
+        """A mean of 25 pixels has a fifth of their noise. The window holds the step where it is 20 times as large as the noise."""
+        noise = np.random.default_rng(4).normal(size=(60, 80, 3)) * 0.01
+        error, floor = np.full(noise.shape, 0.01), np.ones((60, 80), bool)
+        floor[:, :10] = False
+        edge = np.where(np.arange(80) < 40, 0.1, 0.3)[None, :, None]
+        found = smoothed(edge + noise, error, floor)
+        left, right = found[3:-3, 13:37] - 0.1, found[3:-3, 43:-3] - 0.3
+        self.assertLess(max(left.std(), right.std()), 0.01 * 0.4)
+        self.assertLess(np.abs(found - edge - noise)[:, 38:42].max(), 0.01)
+        np.testing.assert_array_equal(found[:, :10], (edge + noise)[:, :10])
+        self.assertGreater(smoothed(edge + noise, 0.1 * error, floor)[3:-3, 13:37].std(), 0.008)
+
+    def test_pictures_have_the_smoothed_floor(self):
+        figure = pt.figure(np.random.default_rng(2).normal(size=(200, 3)), radius=0.1, floor=True, size=(96, 64), samples=16)
+        floor = figure._shares.shapes == 0.0
+        plain = replace(figure._shares, floor=None)
+        rough, smooth = (compose(figure.radiance, figure._stage, each, 0.0)[0] for each in (plain, figure._shares))
+        apart = [np.abs(np.diff(each, axis=1))[floor[:, 1:] & floor[:, :-1]].mean() for each in (rough, smooth)]
+        self.assertLess(apart[1], 0.6 * apart[0])
+        np.testing.assert_array_equal(rough[~floor], smooth[~floor])
 
 
 class Outlines(unittest.TestCase):

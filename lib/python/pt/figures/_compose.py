@@ -5,9 +5,10 @@ from typing import Any, Final
 import numpy as np
 import numpy.typing as npt
 
-from pt._fit import Doubles
+from pt._fit import Array, Doubles
 from pt.figures._overlay import Shares
 
+WINDOW: Final = 5  # pixels
 FLAT: Final = 0.75  # fraction of unlit color in the illustrative style; by taste
 
 
@@ -19,6 +20,8 @@ def compose(radiance: npt.NDArray[np.float32], stage: Any, shares: Shares, expos
     pixel with coverage a and exposure T has the light T(radiance) + (1 - a) (1 - T(stage)) over white. Alpha is the smallest that gives
     this light.
     """
+    if shares.floor is not None:
+        radiance = np.where(shares.shapes[:, :, None] > 0.0, radiance, shares.floor)
     if shares.flat is not None:
         radiance = radiance + np.float32(FLAT) * (shares.flat + (1.0 - shares.shapes[:, :, None]) * stage - radiance)
     behind = np.clip(stage * 2.0**exposure, 0.0, 1.0)
@@ -33,6 +36,23 @@ def compose(radiance: npt.NDArray[np.float32], stage: Any, shares: Shares, expos
         return light, alpha
     kept = 1.0 - shares.fade
     return light * kept[:, :, None], alpha * kept
+
+
+def smoothed(shadow: Array, error: Array, floor: Array) -> Array:
+    """Takes means over windows of floor pixels where their spread is due to noise (Lee 1980, "Digital Image Enhancement and Noise
+    Filtering by Use of Local Statistics")."""
+    count = np.maximum(_window(floor), 1)[:, :, None]
+    mean, square, noise = (_window(np.where(floor[:, :, None], each, 0.0)) / count for each in (shadow, shadow**2, error**2))
+    spread = (square - mean**2).sum(axis=2, keepdims=True)
+    kept = np.clip(1.0 - noise.sum(axis=2, keepdims=True) / np.maximum(spread, 1e-30), 0.0, 1.0)
+    return np.where(floor[:, :, None], mean + kept * (shadow - mean), shadow)
+
+
+def _window(values: Array) -> Array:
+    padded: Any = np.pad(values.astype(np.float64), [(WINDOW // 2, WINDOW // 2)] * 2 + [(0, 0)] * (values.ndim - 2))
+    height, width = values.shape[:2]
+    sums: Array = sum(padded[down:down + height, right:right + width] for down in range(WINDOW) for right in range(WINDOW))
+    return sums
 
 
 def lay_over(light: Doubles, alpha: Doubles, background: Doubles) -> Doubles:

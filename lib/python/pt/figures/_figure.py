@@ -23,7 +23,7 @@ from pt._image import Image
 from pt._scene import Scene, SphereArray
 from pt.figures._accept import load
 from pt.figures._colors import Legend
-from pt.figures._compose import compose, lay_over
+from pt.figures._compose import compose, lay_over, smoothed
 from pt.figures._drawn import LEAST_LENGTH, Drawn, prepare
 from pt.figures._files import write_scene
 from pt.figures._framing import narrow_note
@@ -170,6 +170,8 @@ class Staged:
             context.set_render(settings)
             context.accumulate_tiles(image.sample_count[::TILE_SIDE, ::TILE_SIDE])
             stage = context.readback()
+            shadow = smoothed(stage - image.radiance, image.standard_error, shares.shapes == 0.0)
+            shares = replace(shares, floor=stage - shadow)
         return Figure(image, self, stage, shares)
 
 

@@ -18,9 +18,9 @@ from pt._scene import Scene
 
 MOST_NOISE: Final = 1.5  # steps of 1/255; by taste
 FIRST_SAMPLES: Final = 16  # fewest samples with a stated error
-MOST_SAMPLES: Final = 256  # of a pixel; fine textures hide the remaining noise
+MOST_SAMPLES: Final = 128  # of a pixel; fine textures hide the remaining noise
 WORST: Final = 1.5  # largest noise of a neighbourhood, relative to MOST_NOISE; by taste
-FLOOR: Final = 0.4  # like WORST, for an even floor, where noise shows most
+FLOOR: Final = 1.0  # like WORST, for a floor before its shadows are smoothed
 SHARE: Final = 1.03  # rounds aim at this multiple of the allowed square, because quasi-random samples do better than random ones
 SEQUENCES: Final = 1.0 / math.sqrt(7.0)  # the error of quasi-random points may be this fraction of the stated one
 

@@ -189,7 +189,7 @@ class Options:
                                      rule=(lambda points: 0.0 < points < 1000.0, "> 0 and < 1000"))
 
     samples: int | None = _samples(None, "N", "samples of a pixel. Default: as many as make the noise of the particles "
-                                   "invisible, 1.5 steps of 255 in 2x2 pixels, at most 256; at most 65536 with an error, 128 to "
+                                   "invisible, 1.5 steps of 255 in 2x2 pixels, at most 128; at most 65536 with an error, 128 to "
                                    "denoise. 4 make a quick draft",
                                    flag="--spp", read=int,
                                    rule=(lambda count: 1 <= count < 2**32, "at least 1 and below 2^32"))

@@ -31,7 +31,7 @@ INK: Final = 0.2  # fraction of a shape's color in its outline, in the illustrat
 @dataclass(frozen=True)
 class Shares:
     """Values of pixels from first hits: coverage by shapes and outlines, the shapes' mean depth, and the fraction by which they fade.
-    `flat` has unlit colors. `seen` masks labels that nothing hides."""
+    `flat` has unlit colors. `seen` masks labels that nothing hides. `floor` is the radiance beside shapes."""
 
     shapes: Doubles
     outlines: Doubles
@@ -40,6 +40,7 @@ class Shares:
     flat: Array | None = None
     ink: Any = OUTLINE_LIGHT
     seen: Array | None = None
+    floor: Array | None = None
 
 
 @dataclass(frozen=True)
