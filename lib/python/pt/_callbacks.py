@@ -48,7 +48,7 @@ class CallbackGuard:
         return structs.pt_progress_fn(report)
 
     def takes(self, function: object, words: str | None) -> bool:
-        """Whether `function`, which raised, belongs to this call. Python 3.13 reports only a text with its address."""
+        """Python 3.13 reports only a text with the function's address."""
         return any(own is function or (words is not None and repr(own) in words) for own in self._functions)
 
 

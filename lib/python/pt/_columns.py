@@ -45,7 +45,6 @@ def real_column(name: str, values: npt.ArrayLike, components: int, count: int | 
 
 
 def check_finite(name: str, values: npt.ArrayLike, *, positive: bool = False) -> None:
-    """Raises ValueError with the row and column of the first bad value."""
     array = np.asarray(values)
     good = np.isfinite(array)
     if positive:

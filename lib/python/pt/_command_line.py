@@ -54,6 +54,5 @@ def numbered(pattern: str, number: int | None) -> str:
 
 
 def program() -> str:
-    """PT_PROGRAM, or the installed package's, or the PATH's."""
     packaged = pathlib.Path(__file__).parent / "bin" / "pt"
     return os.environ.get("PT_PROGRAM") or (str(packaged) if packaged.exists() else "pt")

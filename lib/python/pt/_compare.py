@@ -37,7 +37,7 @@ class Comparison:
     probability: float  # upper bound for the probability that equal light shows such differences
     smallest_change: float  # as in Region, of all light
     smallest_tile_change: float  # median of smallest_change over tiles of 32 x 32 pixels
-    rate: float  # light with a probability below this limit differs
+    rate: float  # the light differs if a probability is below this
     summary: str
     regions: tuple[Region, ...]  # the whole picture, then tiles whose sides are halved down to 16 pixels
 

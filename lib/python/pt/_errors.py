@@ -15,8 +15,8 @@ class BrokenRule:
     member: str  # "center", or "" for the argument itself
     component: int | None  # None for scalars
     joined_with: str  # "* height" if the rule concerns the product of width and height, else ""
-    value: str  # "nan"
-    rule: str  # "must be finite"
+    value: str
+    rule: str
 
     def __str__(self) -> str:
         of = "" if self.index is None else f"[{self.index}]"

@@ -26,11 +26,11 @@ TILE_SIDE = 8
 
 @dataclass(frozen=True)
 class FilmInfo:
-    width: int  # of the whole image
+    width: int
     height: int
     x: int  # left edge of the smallest rectangle around the film's pixels
     y: int
-    columns: int  # width of the rectangle
+    columns: int
     rows: int
     max_path_length: int
     seed: int

@@ -120,8 +120,7 @@ def _broken_rules(loaded: ctypes.CDLL, context: c_void_p | None) -> tuple[Broken
 
 
 def checked(loaded: ctypes.CDLL, result: int, context: c_void_p | None = None) -> Result:
-    """Raises negative results as errors. The library keeps a message until the next call on the context or, without a context, on the
-    thread."""
+    """Raises negative results as errors."""
     if result >= 0:
         return Result(result)
     message = _text(loaded.pt_last_error(context))

@@ -9,7 +9,6 @@ CONTROL: Final = re.compile("[\0-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2
 
 
 def printable(text: str) -> str:
-    """Writes control characters as <U+001B>, like the library."""
     return CONTROL.sub(lambda found: f"<U+{ord(found[0]):04X}>", text)
 
 

@@ -35,7 +35,7 @@ class Crew:
         return any(member.identity for member in self)
 
     def look(self) -> list[tuple[str, Try]]:
-        """Returns addresses and tries of workers that have left. Raises FarmError if none remains."""
+        """Returns addresses and tries of workers that have left. Raises FarmError without workers."""
         if now() - self._looked < LOOK_SECONDS:
             return []
         try:

@@ -42,7 +42,7 @@ def bonds_of(particles: Particles, options: Options, radii: Array, notes: list[s
 
 
 def whole(particles: Particles, options: Options) -> Particles:
-    """Follows the bonds from the first atom of each molecule, without passing walls of the cell."""
+    """Moves atoms, except the first one of each molecule, so that no bond crosses a wall of the cell."""
     if particles.cell is None:
         raise ValueError(f"whole: {particles.name} has no cell")
     found = _found(particles, True if options.bond_rule is None else options.bond_rule, [])

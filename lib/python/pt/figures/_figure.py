@@ -178,7 +178,6 @@ class Staged:
 class Figure(Picture, Image):
     """An Image whose picture also has a background, lines and words, which its radiance lacks.
 
-    legend  meaning of the colors, or None
     notes   choices made from the data, and parts that are not shown
     noise   None if the image is denoised
     """

@@ -21,7 +21,7 @@ class Pairs(NamedTuple):
     """Pairs of different particles or images, each once.
 
     images    shape (k, 3), int: the second particle moves by images @ cell.vectors
-    squares   squared distances
+    squares   of distances
     """
 
     first: Array

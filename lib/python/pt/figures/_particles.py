@@ -56,7 +56,6 @@ class Particles:
     radii      shape (n,): a column "radius", or half a column "diameter"
     colors     shape (n, 3) or (n, 4): sRGB, floats in [0, 1], uint8 or uint16
     bonds      None if unknown
-    name       name in messages
     """
 
     positions: Array

@@ -26,7 +26,7 @@ def font_of(height: int, options: Options) -> float:
 
 
 def strip_of(legend: Legend, height: int, options: Options) -> int:
-    """Returns the width of the legend in pixels."""
+    """In pixels."""
     if not options.colorbar or legend is None:
         return 0
     dpi = options.printed_dpi or PIXELS_PER_INCH

@@ -11,7 +11,7 @@ from pt.figures._residues import WATERS, is_free_ion, is_polymer
 
 Array = npt.NDArray[Any]
 
-# Pairs of heavy atoms within a residue. Other atoms of a known residue are not bonded.
+# Pairs of heavy atoms within a residue.
 _WITHIN: Final = (
     "N-CA CA-C C-O C-OXT C-OT1 C-OT2 C-OC1 C-OC2 C-CH3 N-CH3 CA-CB CB-CG CB-CG1 CB-CG2 CB-OG CB-OG1 CB-SG CG-CD CG-CD1 CG-CD2 "
     "CG1-CD1 CG1-CD CG-OD1 CG-OD2 CG-ND1 CG-ND2 CG-SD CG-SE CD-N CD-NE CD-CE CD-OE1 CD-OE2 CD-NE2 CD1-CE1 CD1-NE1 CD2-CE2 "

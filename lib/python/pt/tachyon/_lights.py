@@ -82,7 +82,7 @@ def dimmed(lights: list[Light], background: Triple) -> list[Light]:
 
 def lamps_of(lights: list[Light], around: Surroundings) -> tuple[list[Sphere], list[str]]:
     """Returns balls, and warnings about omitted lights. A white surface that faces a ball of radius r and radiance L at distance d has the
-    radiance L (r / d)^2. L gives such a surface at the camera's target the light's radiance."""
+    radiance L (r / d)^2. L is chosen so that the surface would get the light's radiance at the camera's target."""
     extent = around.extent(lights)
     lamps: list[Sphere] = []
     warnings: list[str] = []

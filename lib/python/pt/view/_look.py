@@ -56,7 +56,7 @@ class Look:
 
 
 def _greys(values: Array, is_near_bright: bool) -> Array:
-    """Greys go from the least to the greatest number. Infinite numbers are black."""
+    """Infinite numbers are black."""
     finite = np.isfinite(values)
     known = values[finite] if finite.any() else np.zeros(1)
     least, extent = known.min(), np.ptp(known)

@@ -258,7 +258,7 @@ class Renderer:
         return restarts or bool(edited and not self._context)
 
     def _is_edited(self, path: pathlib.Path) -> bool:
-        """Whether more than comments has changed or, because faults state lines, any text while there are faults."""
+        """Ignores changes of comments alone, unless there are faults, whose line numbers may then change."""
         if path.suffix not in CODE:
             return True
         before, self._code[path] = self._code.get(path), code_of(path)

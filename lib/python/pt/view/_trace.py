@@ -21,7 +21,7 @@ from pt.view._code import SHADERS
 
 HOOKS: Final = "trace.glsl"
 HEADER, NUMBER, WORDS, VERTEX, THROUGHPUT, RADIANCE = 1, 2, 3, 4, 5, 6  # as in trace.glsl
-FARTHEST: Final = 1e30  # for a ray that hits nothing, the library's kernel records a farther vertex
+FARTHEST: Final = 1e30  # farther vertices belong to rays that hit nothing
 Doubles = npt.NDArray[np.float64]
 
 
@@ -59,7 +59,7 @@ def kernels() -> pathlib.Path | None:
 
 
 class Tracer:
-    """Thread-safe. The context is created at the first trace."""
+    """Thread-safe."""
 
     def __init__(self, device: str | None, shader_dir: pathlib.Path | None) -> None:
         self._device, self._shader_dir = device, shader_dir
@@ -160,7 +160,6 @@ class Projection:
 
 
 def message_of(trace: Trace, camera: Camera, settings: RenderSettings) -> dict[str, Any]:
-    """Numbers that are not finite are null."""
     projection = Projection(camera, settings)
     last: dict[int, Doubles] = {}
     vertices, lines = [], []

@@ -8,7 +8,7 @@ from typing import Any, Final
 import numpy as np
 import numpy.typing as npt
 
-_CONTROL: Final = 8  # byte offset of 20 numbers
+_CONTROL: Final = 8
 _TITLE: Final = 92
 _LENGTHS: Final = (0, 2, 5)
 

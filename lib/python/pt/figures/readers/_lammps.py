@@ -93,7 +93,7 @@ class LammpsDump(TextFrames):
 
 
 def cell_within(bounds: npt.ArrayLike, tilts: npt.ArrayLike, periodic: list[bool]) -> Cell | None:
-    """The cell in a box with the tilts xy, xz, yz (docs.lammps.org/Howto_triclinic.html)."""
+    """See docs.lammps.org/Howto_triclinic.html."""
     low, high = np.array(bounds, np.float64).T
     xy, xz, yz = np.array(tilts, np.float64)
     low -= min(0, xy, xz, xy + xz), min(0, yz), 0
