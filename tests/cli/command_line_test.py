@@ -159,7 +159,7 @@ class Outputs(CommandLineTest):
         os.mkdir(self.path("folder.png"))
         for name in ("folder.png", "/proc/a.png"):
             with self.subTest(name=name):
-                for arguments in (["-o", name], ["-o", "good.exr", "-o", name], ["-o", "good.exr", "--stats", name]):
+                for arguments in (["-o", name], *(["-o", "good.exr", option, name] for option in ("-o", "--stats", "--film"))):
                     self.expect(6, "render", COURSEWORK, *arguments, error="cannot write " + name,
                                 FAKE_PT_FAIL=f"accumulate:{RESULT['INTERNAL']}")
         self.assertEqual(self.files(), ["folder.png"])

@@ -128,24 +128,12 @@ class SameFiles(CommandLineTest):
 
 @unittest.skipUnless(os.geteuid() == 0, "needs root, for a second user")
 class LinksOfOthers(CommandLineTest):
-    """Other users' links in folders like /tmp must not mislead root."""
-    RULE = "belongs to another user, and everybody may write in its folder"
-
-    def test_they_are_refused_before_anything_is_rendered(self):
-        self.write("s.json", SCENE)
-        self.expect(0, "render", "s.json", "-o", "r.exr", "--spp", "16")
+    def test_a_checkpoint_does_not_follow_them(self):
+        """Other users' links in folders like /tmp must not mislead root."""
         os.mkdir(self.path("open"))
         os.chmod(self.path("open"), 0o1777)
         os.chmod(self.folder, 0o755)
-        render = ("render", "s.json", "--spp", "16", "-o", "a.exr")
-        for name, command in (("a.png", ("render", "s.json", "--spp", "16", "-o")), ("a.exr", (*render[:4], "-o")),
-                              ("a.json", (*render, "--stats")),
-                              ("a.ptfilm", (*render, "--film")), ("c.ptfilm", (*render, "--checkpoint")),
-                              ("t.png", ("tonemap", "r.exr"))):
-            with self.subTest(name=name):
-                self.write("of root", "kept")
-                target = "../of root" if "--checkpoint" not in command else "../new"
-                subprocess.run(["ln", "-s", target, name], cwd=self.path("open"), check=True, user=65534)
-                self.expect(6, *command, f"open/{name}", error=f"cannot write open/{name}: the link open/{name} {self.RULE}")
-                self.assertEqual((self.read("of root"), self.files()),
-                                 ("kept", ["of root", "open", "r.exr", "s.json"]))
+        subprocess.run(["ln", "-s", "../new", "c.ptfilm"], cwd=self.path("open"), check=True, user=65534)
+        self.expect(6, "render", COURSEWORK, "-o", "a.exr", "--checkpoint", "open/c.ptfilm",
+                    error="cannot write open/c.ptfilm: the link open/c.ptfilm belongs to another user, and everybody may write")
+        self.assertEqual(self.files(), ["open"])
