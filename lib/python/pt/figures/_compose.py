@@ -39,8 +39,8 @@ def compose(radiance: npt.NDArray[np.float32], stage: Any, shares: Shares, expos
 
 
 def smoothed(shadow: Array, error: Array, floor: Array) -> Array:
-    """Takes means over windows of floor pixels where their spread is due to noise (Lee 1980, "Digital Image Enhancement and Noise
-    Filtering by Use of Local Statistics")."""
+    """Averages windows of floor pixels whose spread is due to noise (Lee 1980, "Digital Image Enhancement and Noise Filtering by Use of
+    Local Statistics")."""
     count = np.maximum(_window(floor), 1)[:, :, None]
     mean, square, noise = (_window(np.where(floor[:, :, None], each, 0.0)) / count for each in (shadow, shadow**2, error**2))
     spread = (square - mean**2).sum(axis=2, keepdims=True)

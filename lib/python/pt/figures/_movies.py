@@ -16,7 +16,6 @@ MOVIES: Final = (".gif", ".mp4")
 
 
 def check_movie(path: str) -> None:
-    """Raises DataError if the format's module is missing."""
     module("PIL.Image" if path.lower().endswith(".gif") else "imageio_ffmpeg", f"-o {path}")
 
 

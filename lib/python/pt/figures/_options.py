@@ -248,7 +248,7 @@ class Options:
 
     @property
     def bond_rule(self) -> Bonds:
-        """None if no bonds are drawn. Models with sticks always have bonds."""
+        """Models with sticks always have bonds."""
         given = not (self.bonds is None or self.bonds is False)
         drawn = {self.drawn_model, *self.picked_models.values()}
         return self.bonds if given else "auto" if drawn != {"space-filling"} else None

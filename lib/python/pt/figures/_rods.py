@@ -65,7 +65,6 @@ def vectors_of(particles: Particles, given: Vectors, scale: float | None, radii:
 
 
 def cell_corners(cell: Cell) -> Doubles:
-    """Bit i of a corner's index selects the end of edge i."""
     vectors = cell.vectors[cell.vectors.any(axis=1)]
     edges = np.arange(len(vectors))
     corners: Doubles = cell.origin + (np.arange(2**len(vectors))[:, None] >> edges & 1) @ vectors

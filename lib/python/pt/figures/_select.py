@@ -182,7 +182,6 @@ class _Reader:
         return result
 
     def named(self) -> tuple[Array, str]:
-        """A column's name may contain blanks if a comparison follows."""
         start = self.at
         ends = [k for k in range(start + 1, min(start + 6, len(self.words))) if self.words[k][0] in COMPARISONS]
         if ends and start < len(self.words):

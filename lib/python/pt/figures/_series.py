@@ -56,7 +56,6 @@ class Panels(Picture):
 
     @property
     def error_bounds(self) -> tuple[float, float]:
-        """The largest of the figures."""
         worst: tuple[float, float] = max((each.error_bounds for each in self.figures), key=lambda bounds: float(bounds[1]))
         return worst
 

@@ -10,7 +10,7 @@ from pt._vectors import Triple
 
 FloatArray = npt.NDArray[np.float64]
 
-DEFAULT_RADIUS = 1 / 50  # radius of a point light's lamp, relative to its distance
+DEFAULT_RADIUS = 1 / 50
 LEAST_RADIUS = 1e-6  # relative to the extent; only lights on surfaces would get smaller lamps
 SUN_DISTANCE = 100.0
 LEAST_SHARE = 1 / 3  # a bright background dims lights at most to this fraction; by taste

@@ -33,7 +33,6 @@ class Look:
         return to_pixels(radiance, self.stops, **self._fields)
 
     def shown(self, frame: Frame) -> bytes:
-        """Returns pixels as R, G, B, A."""
         pixels, layer = frame.pixels, frame.state["layer"]
         assert pixels is not None
         if layer == "mean":
