@@ -72,7 +72,7 @@ class Film:
 
     @classmethod
     def load(cls, path: Path) -> Film:
-        """Reads a file of save() or pt. Films packed by pt need Python 3.14 or the module zstandard."""
+        """Reads a file that save() or pt wrote. Films packed by pt need Python 3.14 or the module zstandard."""
         with open(path, "rb", opener=regular) as file:
             return cls(file.read())
 

@@ -29,8 +29,8 @@ Show = Callable[[Array, Array], Array]  # shows light in 16 bits, with the expos
 
 @dataclass(frozen=True)
 class Noise:
-    """Root mean square error of 2 x 2 pixels' mean, where particles are, in steps of 1/255 of the display, with bounds of 95% confidence.
-    The eye hardly resolves single pixels, whose errors are twice as large."""
+    """Root mean square error of means of 2 x 2 pixels that show particles, in steps of 1/255 of the display, with bounds of 95%
+    confidence. The eye hardly resolves single pixels, whose errors are twice as large."""
 
     rms: float
     low: float

@@ -16,7 +16,7 @@ SIGNALS: Final[dict[str, Any]] = {"exposure": 0.0, "gamma": 1.0}  # numbers in [
 
 
 class Look:
-    """A page's display. Only the mean uses `display`; other layers have their own.
+    """A page's display. Only the mean uses `display`; the colors of other layers are fixed.
 
     display   exposure (a number or "auto"), tonemap, gamma (None: the sRGB curve), white (may be missing)
     stops     current exposure, which is not recomputed while the camera moves
