@@ -191,25 +191,6 @@ class Files(unittest.TestCase):
         np.testing.assert_array_equal(found.colors, 255 * np.eye(3))
         self.assertIn("intensity", found.columns)
 
-    @unittest.skipUnless(installed("ase"), "ASE is not installed")
-    def test_formats_of_ase(self):
-        from ase.io import write
-        for name in ("a.pdb", "a.cif", "POSCAR", "a.gro", *(["a.data"] if installed("ase").__version__ >= "3.23" else [])):
-            write(self.folder / name, ase_atoms(PLACES), **({"format": "lammps-data"} if name == "a.data" else {}))
-            found = load(self.folder / name)
-            apart = np.linalg.norm(found.positions - found.positions[:1], axis=1)  # Some formats move or turn the cell.
-            np.testing.assert_allclose(np.sort(apart), np.linalg.norm(PLACES - PLACES[0], axis=1), atol=2e-3)
-            self.assertIsNotNone(found.cell)
-
-    @unittest.skipUnless(installed("ase"), "ASE is not installed")
-    def test_elements_of_pdb_files_without_their_columns(self):
-        rows = (("ATOM", " CA ", "ALA", "", 6), ("ATOM", "HG11", "VAL", "", 1), ("ATOM", "1HB ", "ALA", "", 1),
-                ("ATOM", "SD  ", "MET", "", 16), ("ATOM", "CA  ", "CA ", "", 20), ("HETATM", "ZN  ", "ZN ", "", 30),
-                ("ATOM", " CA ", "ALA", "CA", 20))
-        text = "".join(f"{kind:<6}{i:5} {name} {residue}  {i:4}    {i:8.3f}{0:8.3f}{0:8.3f}  1.00  0.00          {element:>2}\n"
-                       for i, (kind, name, residue, element, _) in enumerate(rows, 1))
-        self.assertEqual(self.read("a.pdb", text.encode()).elements.tolist(), [row[-1] for row in rows])
-
     def test_a_package_that_is_not_there_or_cannot_read(self):
         unknown = "neither its name nor its first lines say the format; trying others"
         for name, package, extra in (("a.traj", "ase", ""), ("a.las", "laspy", "-points"), ("a.vtk", "pyvista", "-points"),

@@ -8,6 +8,7 @@ import unittest.mock
 import warnings
 
 import numpy as np
+import readers_test
 from pt.figures import frames, load
 from pt.figures._elements import SYMBOLS
 from pt.figures._errors import DataError
@@ -131,7 +132,8 @@ class Damaged(InAFolder):
     def test_damages(self):
         generator = np.random.default_rng(1)
         refused = 0
-        files = [(name, text.encode()) for name, text, *_ in CASES] + [(path.name, path.read_bytes()) for path in DATA.iterdir()]
+        paths = [*DATA.iterdir(), *(readers_test.DATA / name for name in readers_test.DAMAGED)]
+        files = [(name, text.encode()) for name, text, *_ in CASES] + [(path.name, path.read_bytes()) for path in paths]
         for name, data in files:
             if not HAS.get(NEEDS.get(pathlib.Path(name).suffix, ""), True):
                 continue

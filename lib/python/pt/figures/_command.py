@@ -31,7 +31,6 @@ Pictures of --frames and --turntable share one camera and one scale. # signs in 
 -o f.gif (by the module Pillow) and -o f.mp4 (by imageio-ffmpeg) hold all pictures of a series.
 """
 PICTURES = ("exr", *PAGES)
-FILMS = (".webm", ".mov", ".avi", ".mkv")
 
 
 def refuse(message: str, code: int = USAGE) -> NoReturn:
@@ -121,11 +120,7 @@ def check(given: argparse.Namespace) -> None:
     if "-" in given.output and (series or not given.output_format):
         refuse("-o -: a series needs files" if series else "-o -: needs --format")
     for path in pictures:
-        stem, ending = os.path.splitext(path)
-        if ending.lower() in FILMS:
-            refuse(f"-o {path}: write pictures by -o {stem}-###.png with --frames or --turntable, and then run "
-                   f"ffmpeg -framerate 25 -i {stem}-%03d.png {path}")
-        is_movie = ending.lower() in MOVIES
+        is_movie = path.lower().endswith(MOVIES)
         if is_movie and not series:
             refuse(f"-o {path}: only with --frames or --turntable")
         if is_movie:
