@@ -8,7 +8,7 @@ import numpy.typing as npt
 from pt._fit import Array, Doubles
 from pt.figures._overlay import Shares
 
-WINDOW: Final = 5  # pixels
+WINDOW: Final = 9  # pixels
 FLAT: Final = 0.75  # fraction of unlit color in the illustrative style; by taste
 
 
@@ -51,7 +51,8 @@ def smoothed(shadow: Array, error: Array, floor: Array) -> Array:
 def _window(values: Array) -> Array:
     padded: Any = np.pad(values.astype(np.float64), [(WINDOW // 2, WINDOW // 2)] * 2 + [(0, 0)] * (values.ndim - 2))
     height, width = values.shape[:2]
-    sums: Array = sum(padded[down:down + height, right:right + width] for down in range(WINDOW) for right in range(WINDOW))
+    rows: Any = sum(padded[down:down + height] for down in range(WINDOW))
+    sums: Array = sum(rows[:, right:right + width] for right in range(WINDOW))
     return sums
 
 
