@@ -5,6 +5,7 @@
 #include "cli/base/exit_code.h"
 #include "cli/base/interrupt.h"
 #include "cli/base/kernel_folder.h"
+#include "cli/base/vector_width.h"
 #include "lib/base/error.h"
 #include "lib/base/struct_size.h"
 
@@ -20,6 +21,7 @@
 #include <optional>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace cli {
@@ -68,13 +70,18 @@ inline pt_create_info create_info(const std::string &device, const std::string &
 class Context {
 public:
     // Keeps kernels in the user's cache. Sets environment variables, so no other thread may run.
-    explicit Context(pt_create_info info) : shader_dir_(info.shader_dir == nullptr ? "" : info.shader_dir) {
-        choose_vector_width();
+    explicit Context(pt_create_info info, const KernelUse &use = {}) :
+        shader_dir_(info.shader_dir == nullptr ? "" : info.shader_dir) {
+        VectorWidth width(use);
         kernels_.serve(info);
         const EndAtOnce compiling; // compiling may take long
-        const pt_result result = pt_create(&info, &context_);
-        if (result < 0)
-            fail(result, cli::last_error(nullptr));
+        create(info);
+        pt_device_info device{};
+        if (pt_get_context_device(context_, &device) >= 0 && width.should_measure(device)) {
+            pt_destroy(std::exchange(context_, nullptr));
+            width.measure(device);
+            create(info);
+        }
     }
     Context(const Context &) = delete;
     Context &operator=(const Context &) = delete;
@@ -127,6 +134,12 @@ public:
     }
 
 private:
+    void create(const pt_create_info &info) {
+        const pt_result result = pt_create(&info, &context_);
+        if (result < 0)
+            fail(result, cli::last_error(nullptr));
+    }
+
     [[noreturn]] void fail(pt_result result, const LibraryError &error) const {
         const bool loses_work = result == PT_ERROR_INTERNAL || result == PT_ERROR_DEVICE_LOST;
         throw Failure(code_of(result, error), error.in_words(&in_words_of_options) +

@@ -1,15 +1,17 @@
 #include "cli/base/context.h"
 #include "cli/base/devices.h"
-#include "cli/base/environment.h"
 #include "cli/base/json.h"
+#include "cli/base/vector_width.h"
 #include "cli/commands.h"
+#include "lib/scene_file/names.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdlib>
 #include <iomanip>
 #include <iostream>
-#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -66,10 +68,28 @@ void print_json(const std::vector<pt_device_info> &devices) {
     std::cout << json_text(list);
 }
 
-int run_devices(bool as_json) {
-    choose_vector_width(); // the name of llvmpipe contains the width
+constexpr pt::ValueNames<2, bool> kernel_kinds({{"list", false}, {"tree", true}});
+
+struct DevicesOptions {
+    bool as_json = false;
+    std::optional<bool> has_tree;
+    std::string device;
+};
+
+int print_vector_width(const DevicesOptions &options) {
+    const Context context(create_info(options.device, ""), {*options.has_tree, UINT64_MAX});
+    for (const char *name : vector_width_variables)
+        if (const char *value = std::getenv(name))
+            std::cout << name << '=' << value << '\n';
+    return static_cast<int>(ExitCode::done);
+}
+
+int run_devices(const DevicesOptions &options) {
+    if (options.has_tree)
+        return print_vector_width(options);
+    const VectorWidth width({}); // the name of llvmpipe contains the width
     const std::vector<pt_device_info> devices = list_devices();
-    if (as_json)
+    if (options.as_json)
         print_json(devices);
     else
         print_table(devices);
@@ -80,10 +100,15 @@ int run_devices(bool as_json) {
 } // namespace
 
 void add_devices_command(CLI::App &program, Run &chosen) {
-    const auto as_json = std::make_shared<bool>(false);
-    add_command(program, chosen, "devices", "List the Vulkan devices", "", [as_json] {
-        return run_devices(*as_json);
-    }).add_flag("--json", *as_json, "Print JSON");
+    const auto [command, options] =
+        add_command(program, chosen, "devices", "List the Vulkan devices", "", &run_devices);
+    command.add_flag("--json", options.as_json, "Print JSON");
+    add_name(
+        command, "--vector-width", options.has_tree, [](const std::string &name) { return kernel_kinds.find(name); },
+        "kind of kernel", kernel_kinds.names(),
+        "Print the environment variables for llvmpipe's best vector width, which is measured the first time. Kernels "
+        "have a tree from 113 spheres on");
+    add_device(command, options.device);
 }
 
 } // namespace cli

@@ -19,9 +19,7 @@ std::string words_of(const std::string &path, const BrokenRule &rule) {
     if (std::find(digests.begin(), digests.end(), rule.member) != digests.end())
         return path + ": was made with another " + rule.member + " (" + rule.value + ": " + rule.rule + ")";
     const std::string text = rule.text(path + ": " + rule.member);
-    return rule.member == "device" ? text + "; choose that model of device by --device, or on a CPU the width of its "
-                                            "vectors by LP_NATIVE_VECTOR_WIDTH, or begin anew"
-                                   : text;
+    return rule.member == "device" ? text + "; choose that model of device by --device, or begin anew" : text;
 }
 
 std::string without_subject(const std::string &message) {

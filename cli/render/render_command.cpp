@@ -4,6 +4,7 @@
 #include "cli/picture/denoise.h"
 #include "cli/render/render_checks.h"
 #include "lib/scene_file/animation.h"
+#include "lib/tree/tree_choice.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -23,7 +24,7 @@ int render_once(const RenderOptions &options, ValidationLog &log) {
     catch_signals();
 
     times.create_start = std::chrono::steady_clock::now();
-    const Context context(render_create_info(options, log));
+    const Context context(render_create_info(options, log), kernel_use(task));
     const ExitCode outcome = render_picture(context, task, times, [] { return false; });
     return exit_code_of(outcome, interrupt_signal());
 }
@@ -92,7 +93,7 @@ private:
         times.create_start = std::chrono::steady_clock::now();
         if (!context_) {
             catch_signals();
-            context_.emplace(render_create_info(options_, log_));
+            context_.emplace(render_create_info(options_, log_), kernel_use(task));
         }
         return render_picture(*context_, task, times, [] { return interrupt_signal() != 0; });
     }
@@ -109,6 +110,15 @@ int render_frames(const RenderOptions &options, ValidationLog &log) {
 }
 
 } // namespace
+
+KernelUse kernel_use(const RenderTask &task) {
+    const pt_scene scene = task.scene.scene();
+    std::uint64_t spheres = scene.sphere_count;
+    for (const pt_sphere_array &each : task.scene.sphere_arrays())
+        spheres += each.count;
+    const std::uint64_t pixels = std::uint64_t{task.render.width} * task.render.height;
+    return {spheres >= pt::default_tree_from, pixels * task.sample_count};
+}
 
 pt_create_info render_create_info(const RenderOptions &options, ValidationLog &log) {
     pt_create_info info = create_info(options.device, options.shader_dir);

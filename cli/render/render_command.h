@@ -43,6 +43,8 @@ struct ValidationLog {
     }
 };
 
+KernelUse kernel_use(const RenderTask &task);
+
 pt_create_info render_create_info(const RenderOptions &options, ValidationLog &log);
 
 // Renders again on one context whenever a source changes, until a signal. Returns 0 after a signal while it waits.

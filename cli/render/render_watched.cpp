@@ -86,7 +86,7 @@ private:
         task.load();
         check_outputs(task);
         times.create_start = std::chrono::steady_clock::now();
-        refresh_context();
+        refresh_context(task);
         const auto superseded = [this] { return sources_.changed(std::chrono::milliseconds{0}); };
         outcome_ = render_picture(*context_, task, times, superseded);
         if (outcome_ == ExitCode::done || outcome_ == ExitCode::target_missed)
@@ -94,9 +94,9 @@ private:
     }
 
     // A context takes longer than most renderings.
-    void refresh_context() {
+    void refresh_context(const RenderTask &task) {
         if (!context_) {
-            context_.emplace(render_create_info(options_, log_));
+            context_.emplace(render_create_info(options_, log_), kernel_use(task));
         } else if (!options_.shader_dir.empty()) {
             context_->reload_shaders();
         }

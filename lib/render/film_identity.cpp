@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 #include <string>
+#include <string_view>
 
 namespace pt {
 
@@ -17,10 +18,19 @@ std::string printable(std::string text) {
     return text;
 }
 
+// llvmpipe's name has the width of its vectors, which does not change the bits.
+std::string without_vector_width(std::string name) {
+    const std::size_t end = name.rfind(" bits)");
+    const std::size_t start = name.rfind(", ", end);
+    if (name.starts_with("llvmpipe") && end != std::string::npos && start != std::string::npos)
+        name.erase(start, end + std::string_view(" bits").size() - start);
+    return name;
+}
+
 std::string text_of(const std::vector<pt_device_info> &devices) {
     std::set<std::string> models;
     for (const pt_device_info &device : devices)
-        models.insert(printable(std::string(device.name) + ", " + device.driver));
+        models.insert(printable(without_vector_width(device.name) + ", " + device.driver));
     std::string text;
     for (const std::string &model : models)
         text += (text.empty() ? "" : " and ") + model;

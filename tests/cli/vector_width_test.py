@@ -1,13 +1,15 @@
 import json
 import os
+import pathlib
 import platform
 import unittest
 
-from command_line import COURSEWORK, PT, CommandLineTest, read_exr_attributes, read_exr_blocks
+from command_line import COURSEWORK, PT, SCENES, CommandLineTest, read_exr_attributes, read_exr_blocks
 
 FEATURES = {"avx512f", "avx512bw", "avx512dq", "avx512vl"}
 CHOICES = ("LP_NATIVE_VECTOR_WIDTH", "MESA_SHADER_CACHE_DIR", "MESA_SHADER_CACHE_DISABLE", "MESA_GLSL_CACHE_DIR",
            "MESA_GLSL_CACHE_DISABLE")
+TREE = os.path.join(SCENES, "thousand-spheres.json")
 
 
 def has_wide_vectors():
@@ -31,28 +33,58 @@ class RealDeviceWidth(CommandLineTest):
         if self.device is None:
             self.skipTest("there is no llvmpipe")
 
-    def render(self, name, **environment):
-        self.expect(0, "render", COURSEWORK, "-o", name, "--size", "64x32", "--spp", "4", "--max-path-length", "6",
+    def render(self, name, scene=COURSEWORK, **environment):
+        self.expect(0, "render", scene, "-o", name, "--size", "64x32", "--spp", "4", "--max-path-length", "6",
                     "--device", self.device, XDG_CACHE_HOME=self.path("cache"), **environment)
         return read_exr_attributes(self.path(name))["pt.device"][1].decode()
 
-    def test_wide_unless_the_user_has_chosen(self):
+    def test_short_renderings_measure_nothing(self):
         self.assertIn("512 bits", self.render("a.exr"))
+        self.assertIn("256 bits", self.render("b.exr", TREE))
         self.assertTrue(os.listdir(self.path("cache/pt/shaders-512")))
+        self.assertFalse(list(pathlib.Path(self.path("cache/pt")).glob("vector-width-*")))
 
-    def test_a_checkpoint_goes_on_wherever_caches_can_be(self):
+    def test_a_checkpoint_goes_on_wherever_caches_can_be_and_at_each_width(self):
         self.write("file", "")
         picture = ("render", COURSEWORK, "--size", "16x8", "--device", self.device, "--checkpoint", "c.ptfilm", "--spp")
         self.expect(0, *picture, "8", "-o", "a.png", XDG_CACHE_HOME=self.path("cache"))
-        for spp, folders in (("16", {"HOME": "", "XDG_CACHE_HOME": ""}), ("24", {"XDG_CACHE_HOME": self.path("file")}),
-                             ("32", {"MESA_SHADER_CACHE_DISABLE": "true"})):
-            self.expect(0, *picture, spp, "-o", "a.png", "--resume", **folders)
-        self.expect(2, *picture, "40", "-o", "a.png", "--resume", LP_NATIVE_VECTOR_WIDTH=256,
-                    error="choose that model of device by --device, or on a CPU the width of its vectors by "
-                    "LP_NATIVE_VECTOR_WIDTH, or begin anew")
+        for spp, changed in (("16", {"HOME": "", "XDG_CACHE_HOME": ""}), ("24", {"XDG_CACHE_HOME": self.path("file")}),
+                             ("32", {"MESA_SHADER_CACHE_DISABLE": "true"}), ("40", {"LP_NATIVE_VECTOR_WIDTH": 256})):
+            self.expect(0, *picture, spp, "-o", "a.png", "--resume", **changed)
+        self.expect(0, *picture[:-3], "--film", "whole.ptfilm", "--spp", "40", "-o", "whole.png")
+        self.assertEqual(self.contents("c.ptfilm"), self.contents("whole.ptfilm"))
 
     def test_the_picture_is_the_same(self):
-        for width in 256, 512:
-            name = self.render(f"{width}.exr", LP_NATIVE_VECTOR_WIDTH=width, MESA_SHADER_CACHE_DISABLE="true")
-            self.assertIn(f"{width} bits", name)
-        self.assertEqual(read_exr_blocks(self.path("256.exr")), read_exr_blocks(self.path("512.exr")))
+        for scene in COURSEWORK, TREE:
+            for width in 256, 512:
+                name = self.render(f"{width}.exr", scene, LP_NATIVE_VECTOR_WIDTH=width, MESA_SHADER_CACHE_DISABLE="true")
+                self.assertIn(f"{width} bits", name)
+            self.assertEqual(read_exr_blocks(self.path("256.exr")), read_exr_blocks(self.path("512.exr")))
+
+    def variables(self, kernels, **environment):
+        self.expect(0, "devices", "--vector-width", kernels, "--device", self.device, XDG_CACHE_HOME=self.path("cache"),
+                    **environment)
+        return dict(line.split("=", 1) for line in self.output.splitlines())
+
+    def test_a_width_is_measured_once_for_each_kind_of_kernel(self):
+        for kernels, scene in (("list", COURSEWORK), ("tree", TREE)):
+            kept = pathlib.Path(self.path(f"cache/pt/vector-width-{kernels}"))
+            self.assertEqual(self.variables(kernels, LP_NATIVE_VECTOR_WIDTH=128), {"LP_NATIVE_VECTOR_WIDTH": "128"})
+            self.assertFalse(kept.exists())
+            width = self.variables(kernels)["LP_NATIVE_VECTOR_WIDTH"]
+            text = kept.read_text()
+            self.assertEqual(text.splitlines()[0], width)
+            written = kept.stat().st_mtime_ns
+            self.assertIn(f"{width} bits", self.render("a.exr", scene))
+            other = {"256": "512", "512": "256"}[width]
+            kept.write_text(text.replace(width, other, 1))
+            self.assertIn(f"{other} bits", self.render("a.exr", scene))
+            self.assertEqual(self.variables(kernels)["LP_NATIVE_VECTOR_WIDTH"], other)
+            kept.write_text("\n".join([other, *text.splitlines()[1:2], "another driver\n"]))
+            self.variables(kernels)
+            self.assertEqual(kept.read_text().splitlines()[1:], text.splitlines()[1:])
+            self.assertGreater(kept.stat().st_mtime_ns, written)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -47,7 +47,7 @@ class Addresses(SceneTest):
 class Command(SceneTest):
     def setUp(self):
         super().setUp()
-        self.enterContext(mock.patch.dict(os.environ, XDG_CACHE_HOME=str(self.folder / "cache"),
+        self.enterContext(mock.patch.dict(os.environ, XDG_CACHE_HOME=str(self.folder / "cache"), LP_NATIVE_VECTOR_WIDTH="256",
                                           PYTHONPATH=os.pathsep.join(sys.path)))
 
     def command(self, *arguments):

@@ -1,15 +1,18 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import os
 import pathlib
 import re
+import subprocess
 from collections.abc import Callable, Sequence
 from typing import Any
 
 from pt._enums import Result
 from pt._files import format_of
 
+VECTOR_BITS = "LP_NATIVE_VECTOR_WIDTH"
 INTERNAL, USAGE, SCENE, NO_DEVICE, LOST, FILES, TARGET_MISSED, SIGNAL = 1, 2, 3, 4, 5, 6, 7, 128
 CODE_OF_RESULT = {Result.ERROR_INVALID_ARGUMENT: USAGE, Result.ERROR_INCOMPATIBLE: USAGE,
                   Result.ERROR_INVALID_SCENE: SCENE, Result.ERROR_UNSUPPORTED: NO_DEVICE,
@@ -56,3 +59,12 @@ def numbered(pattern: str, number: int | None) -> str:
 def program() -> str:
     packaged = pathlib.Path(__file__).parent / "bin" / "pt"
     return os.environ.get("PT_PROGRAM") or (str(packaged) if packaged.exists() else "pt")
+
+
+def choose_vector_width(has_tree: bool, device: str | None) -> None:
+    """Sets the variables of `pt devices --vector-width`. Must precede the process's first context."""
+    command = [program(), "devices", "--vector-width", "tree" if has_tree else "list"]
+    if VECTOR_BITS not in os.environ:
+        with contextlib.suppress(OSError):  # without the program the driver's default stays
+            done = subprocess.run(command + (["--device", device] if device else []), capture_output=True, text=True)
+            os.environ.update((name, value) for name, _, value in (line.partition("=") for line in done.stdout.splitlines()))

@@ -12,7 +12,7 @@ from dataclasses import Field, fields, replace
 from typing import Any, NoReturn
 
 from pt._command_line import (CODE_OF_RESULT, FILES, INTERNAL, SCENE, SIGNAL, TARGET_MISSED, USAGE, at_least,
-                              misnamed, numbered)
+                              choose_vector_width, misnamed, numbered)
 from pt._context import Context
 from pt._errors import Error
 from pt._text import tell
@@ -210,6 +210,8 @@ def main() -> None:
         options = Options(**{name: value for name, value in vars(given).items() if name in Options.__annotations__
                              and name != "progress"}, progress=Shown("none" if given.quiet else given.progress))
         check(given)
+        if given.output:
+            choose_vector_width(True, options.device)
     except ValueError as error:
         refuse(str(error))
     try:

@@ -13,8 +13,9 @@ import webbrowser
 from dataclasses import fields
 from typing import IO, NoReturn
 
-from pt._command_line import CODE_OF_RESULT, FILES, INTERNAL, SCENE, USAGE, at_least
+from pt._command_line import CODE_OF_RESULT, FILES, INTERNAL, SCENE, USAGE, at_least, choose_vector_width
 from pt._errors import Error
+from pt._scene_file import load
 from pt._text import tell
 from pt.figures._command import add_option, joined, typed
 from pt.figures._options import Options, two
@@ -24,7 +25,7 @@ EPILOG = """\
 The server listens only on 127.0.0.1. Everybody who has its address can control it. From another machine use
 ssh -L PORT:127.0.0.1:PORT HOST with the port of the address. Ctrl-C ends the server. Only the page's save buttons write files.
 """
-VECTOR_BITS = "LP_NATIVE_VECTOR_WIDTH"
+FIRST_TREE = 113  # spheres
 
 
 def refuse(message: str, code: int = USAGE) -> NoReturn:
@@ -93,19 +94,14 @@ def open_browser(address: str) -> IO[str]:
     return file
 
 
-def widen_vectors() -> None:
+def has_tree(what: str) -> bool:
+    if not what.endswith(".json"):
+        return not os.path.isdir(what)
     try:
-        flags = pathlib.Path("/proc/cpuinfo").read_text()
-    except OSError:
-        return
-    if VECTOR_BITS not in os.environ and all(f"avx512{name}" in flags for name in ("f", "bw", "dq", "vl")):
-        os.environ[VECTOR_BITS] = "512"
-        cache = pathlib.Path(os.environ.get("MESA_SHADER_CACHE_DIR") or user_cache(), "shaders-512")
-        try:
-            cache.mkdir(parents=True, exist_ok=True)
-            os.environ["MESA_SHADER_CACHE_DIR"] = str(cache)
-        except OSError:
-            os.environ["MESA_SHADER_CACHE_DISABLE"] = "true"
+        scene = load(what).scene
+    except (Error, OSError):  # the view says why
+        return False
+    return len(scene.spheres) + sum(len(each.center) for each in scene.sphere_arrays) >= FIRST_TREE
 
 
 def main() -> None:
@@ -114,7 +110,7 @@ def main() -> None:
         refuse(f"{given.what}: does not exist or cannot be read", FILES)
     if given.shader_dir and not os.path.isdir(given.shader_dir):
         refuse(f"--shader-dir {given.shader_dir}: is no folder", FILES)
-    widen_vectors()
+    choose_vector_width(has_tree(given.what), given.device)
     try:
         from pt.view._view import View
     except ImportError as error:

@@ -1,9 +1,10 @@
-#include "cli/base/environment.h"
 #include "cli/base/exit_code.h"
+#include "cli/base/vector_width.h"
 #include "tests/cli/temporary_folder.h"
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <cstdlib>
 #include <map>
 #include <string>
@@ -37,7 +38,7 @@ protected:
 
     static Variables added(const Variables &variables) {
         set(variables);
-        cli::widen_vectors();
+        const cli::VectorWidth width({}, true);
         Variables more = present();
         std::erase_if(more, [&](const auto &each) {
             const auto found = variables.find(each.first);
@@ -76,6 +77,53 @@ TEST_F(VectorWidth, IsWideWithoutAPlaceForACache) {
 TEST_F(VectorWidth, IsTheUsersChoice) {
     for (const char *value : {"256", "512", ""})
         EXPECT_EQ(added({{"HOME", folder.file("home")}, {"LP_NATIVE_VECTOR_WIDTH", value}}), Variables()) << value;
+}
+
+TEST_F(VectorWidth, ComesFromUndamagedFilesOfThisProcessor) {
+    const std::string file = folder.file("width");
+    cli::write_width(file, {512, "driver 1"});
+    const std::string good = folder.read("width");
+    const auto read = [&](const std::string &text) {
+        folder.write("width", text);
+        return cli::read_width(file);
+    };
+    ASSERT_TRUE(read(good));
+    EXPECT_EQ(read(good)->bits, 512U);
+    EXPECT_EQ(read(good)->driver, "driver 1");
+    const std::string rest = good.substr(3);
+    for (const std::string &bad : {std::string(), "1024" + rest, "-512" + rest, "x" + good, "512\nanother" + rest,
+                                   good.substr(0, good.size() - 1), good.substr(0, 4), std::string(5000, '5'),
+                                   "512\n" + std::string(1 << 20, 'x') + good})
+        EXPECT_FALSE(read(bad)) << bad.substr(0, 80);
+    EXPECT_FALSE(cli::read_width(folder.file("none")));
+    EXPECT_FALSE(cli::read_width(folder.file(".")));
+    EXPECT_FALSE(cli::read_width("/dev/zero"));
+}
+
+TEST_F(VectorWidth, IsMeasuredForLongRenderingsOnLlvmpipe) {
+    set({{"HOME", folder.file("home")}});
+    const auto device = [](const std::string &name) {
+        pt_device_info info{};
+        name.copy(info.name, sizeof info.name);
+        std::string("driver 1").copy(info.driver, sizeof info.driver);
+        return info;
+    };
+    constexpr cli::KernelUse use{true, UINT64_MAX};
+    const auto should_measure = [&](const cli::KernelUse &of, const std::string &name, bool is_free = true) {
+        unsetenv("LP_NATIVE_VECTOR_WIDTH");
+        return cli::VectorWidth(of, is_free).should_measure(device(name));
+    };
+    EXPECT_TRUE(should_measure(use, "llvmpipe (LLVM 15)"));
+    EXPECT_FALSE(should_measure({true, 1000}, "llvmpipe (LLVM 15)"));
+    EXPECT_FALSE(should_measure(use, "NVIDIA H200"));
+    EXPECT_FALSE(should_measure(use, "llvmpipe (LLVM 15)", false));
+    cli::write_width(folder.file("home/.cache/pt/vector-width-tree"), {512, "driver 1"});
+    EXPECT_FALSE(should_measure(use, "llvmpipe (LLVM 15)"));
+    EXPECT_STREQ(std::getenv("LP_NATIVE_VECTOR_WIDTH"), "512");
+    cli::write_width(folder.file("home/.cache/pt/vector-width-tree"), {512, "driver 2"});
+    EXPECT_TRUE(should_measure(use, "llvmpipe (LLVM 15)"));
+    setenv("LP_NATIVE_VECTOR_WIDTH", "256", 1);
+    EXPECT_FALSE(cli::VectorWidth(use, true).should_measure(device("llvmpipe (LLVM 15)")));
 }
 
 } // namespace
