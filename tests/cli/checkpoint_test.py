@@ -80,7 +80,7 @@ class KilledRender(KeptRender):
         self.assertEqual([self.contents(file) for file in ("a.png", "a.ptfilm")], expected)
 
     def test_pixels_with_different_numbers_of_samples_go_on_too(self):
-        options = [*self.options(100000), "--error", "4%", "--stats", "a.json"]
+        options = [*self.options(100000), "--error", "4%", "--sampling", "adaptive", "--stats", "a.json"]
         expected = self.whole(*options)
         codes = [75]
         while codes[-1] == 75:

@@ -44,10 +44,6 @@ class Usage(CommandLineTest):
                 self.expect(2, *arguments, error=error)
         self.assertEqual(self.files(), [])
 
-    def test_kinds_of_sampling(self):
-        for sampling in ("adaptive", "--error", "50%"), ("uniform", "--error", "50%"), ("best", "--error", "50%"), ("uniform",):
-            self.expect(0, "render", COURSEWORK, "-o", "a.png", "--size", "2x2", "--spp", "20", "--sampling", *sampling)
-
     def test_failing_allocations_end_the_program(self):
         codes = []
         for number in range(1, 3000, 173):
