@@ -81,7 +81,6 @@ pt_add_tests(
   film/coverage_test.cpp
   film/estimate_on_device_test.cpp
   film/film_on_device_test.cpp
-  film/host_fold_test.cpp
   film/readback_test.cpp
   film/readback_to_buffer_test.cpp
   film/resolve_test.cpp

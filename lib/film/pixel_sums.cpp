@@ -49,44 +49,7 @@ WordAndCarry sum_of(std::uint32_t a, std::uint32_t b, std::uint32_t carry) {
     return {with_carry, static_cast<std::uint32_t>(sum < a) | static_cast<std::uint32_t>(with_carry < sum)};
 }
 
-WordAndCarry difference_of(std::uint32_t a, std::uint32_t b, std::uint32_t borrow) {
-    const std::uint32_t difference = a - b;
-    return {difference - borrow, static_cast<std::uint32_t>(a < b) | static_cast<std::uint32_t>(difference < borrow)};
-}
-
-// Works plane by plane, because carries go from one word of a sum to the next.
-template <typename Operation>
-void combine(const PartWords<std::uint32_t> &to, const PartWords<const std::uint32_t> &from, std::size_t pixel_count,
-             const Operation &operation) noexcept {
-    constexpr std::size_t block_pixels = 256; // fits the fastest cache
-    std::array<std::uint32_t, block_pixels> carries;
-    for (std::size_t done = 0; done < pixel_count; done += block_pixels) {
-        const std::size_t block = std::min(block_pixels, pixel_count - done);
-        for (std::size_t plane = 0; plane < gpu::FILM_WORDS; ++plane) {
-            if (plane >= gpu::FILM_ACCEPTED || plane % gpu::FILM_SUM_WORDS == 0)
-                std::fill_n(carries.begin(), block, 0U);
-            std::uint32_t *const words = to.first + plane * to.stride + done;
-            const std::uint32_t *const others = from.first + plane * from.stride + done;
-            for (std::size_t pixel = 0; pixel < block; ++pixel) {
-                const WordAndCarry result = operation(words[pixel], others[pixel], carries[pixel]);
-                words[pixel] = result.word;
-                carries[pixel] = result.carry;
-            }
-        }
-    }
-}
-
 } // namespace
-
-void add_words(const PartWords<std::uint32_t> &to, const PartWords<const std::uint32_t> &from,
-               std::size_t pixel_count) noexcept {
-    combine(to, from, pixel_count, sum_of);
-}
-
-void subtract_words(const PartWords<std::uint32_t> &to, const PartWords<const std::uint32_t> &from,
-                    std::size_t pixel_count) noexcept {
-    combine(to, from, pixel_count, difference_of);
-}
 
 void PixelSums::clear() noexcept {
     std::ranges::fill(words_, 0U);
@@ -98,10 +61,25 @@ void PixelSums::add(const PixelSums &other) noexcept {
     add_coverage(0, other, 0, pixel_count_);
 }
 
+// Works plane by plane, because carries go from one word of a sum to the next.
 void PixelSums::add_part(std::uint32_t to_part, std::size_t to_first, const PixelSums &from, std::uint32_t from_part,
                          std::size_t first, std::size_t count) noexcept {
-    add_words({plane(to_part, 0).data() + to_first, pixel_count_},
-              {from.plane(from_part, 0).data() + first, from.pixel_count_}, count);
+    constexpr std::size_t block_pixels = 256; // fits the fastest cache
+    std::array<std::uint32_t, block_pixels> carries;
+    for (std::size_t done = 0; done < count; done += block_pixels) {
+        const std::size_t block = std::min(block_pixels, count - done);
+        for (std::size_t i = 0; i < gpu::FILM_WORDS; ++i) {
+            if (i >= gpu::FILM_ACCEPTED || i % gpu::FILM_SUM_WORDS == 0)
+                std::fill_n(carries.begin(), block, 0U);
+            std::uint32_t *const words = plane(to_part, i).data() + to_first + done;
+            const std::uint32_t *const others = from.plane(from_part, i).data() + first + done;
+            for (std::size_t pixel = 0; pixel < block; ++pixel) {
+                const WordAndCarry result = sum_of(words[pixel], others[pixel], carries[pixel]);
+                words[pixel] = result.word;
+                carries[pixel] = result.carry;
+            }
+        }
+    }
 }
 
 void PixelSums::add_coverage(std::size_t to_first, const PixelSums &from, std::size_t first,

@@ -14,18 +14,6 @@
 
 namespace pt {
 
-template <typename Word>
-struct PartWords {
-    Word *first;
-    std::size_t stride;
-};
-
-void add_words(const PartWords<std::uint32_t> &to, const PartWords<const std::uint32_t> &from,
-               std::size_t pixel_count) noexcept;
-
-void subtract_words(const PartWords<std::uint32_t> &to, const PartWords<const std::uint32_t> &from,
-                    std::size_t pixel_count) noexcept;
-
 constexpr std::size_t film_planes(bool has_coverage) {
     return std::size_t{gpu::FILM_COVERED} + (has_coverage ? 1 : 0);
 }

@@ -55,10 +55,6 @@ DeviceFilm::DeviceFilm(vulkan::Device &device, std::uint32_t width, std::uint32_
     }
 }
 
-bool DeviceFilm::is_host_memory() const {
-    return std::ranges::all_of(strips_, [](const Strip &strip) { return strip.words.host_memory().data() != nullptr; });
-}
-
 void DeviceFilm::clear(const vk::raii::CommandBuffer &commands) const {
     for (const Strip &strip : strips_)
         strip.words.clear(commands, 0, strip.words.size());

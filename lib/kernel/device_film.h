@@ -48,8 +48,6 @@ public:
     std::vector<Strip> &strips() { return strips_; }
     const std::vector<Strip> &strips() const { return strips_; }
 
-    bool is_host_memory() const;
-
     void clear(const vk::raii::CommandBuffer &commands) const;
 
     bool has_whole_tiles() const;

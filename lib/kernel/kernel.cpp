@@ -2,7 +2,6 @@
 
 #include "lib/base/error.h"
 #include "lib/film/sample_set.h"
-#include "lib/kernel/host_fold.h"
 
 #include <algorithm>
 #include <numeric>
@@ -27,34 +26,14 @@ std::uint32_t samples_of_dispatch(const vulkan::Device &device, const Features &
     const std::uint64_t trips = loop_trips_per_sample(features);
     const std::uint64_t budget = device.limits().loop_trip_budget;
     if (trips > budget)
-        throw Error(PT_ERROR_UNSUPPORTED,
-                    BrokenRule{.subject = "render",
-                               .member = "max_path_length",
-                               .value = std::to_string(features[gpu::ID_MAX_PATH_LENGTH]),
-                               .rule = "a sample of this scene takes up to " + std::to_string(trips) +
-                                       " loop trips, and this driver stops a kernel after " + std::to_string(budget) +
-                                       ": use shorter paths or fewer surfaces"});
+        refuse_argument("render", "max_path_length", std::to_string(features[gpu::ID_MAX_PATH_LENGTH]),
+                        "a sample of this scene takes up to " + std::to_string(trips) +
+                            " loop trips, and this driver stops a kernel after " + std::to_string(budget) +
+                            ": use shorter paths or fewer surfaces",
+                        PT_ERROR_UNSUPPORTED);
     const std::uint64_t rows =
         layout.row_blocks() > 0 ? table_bytes / sizeof(PointBlock) / layout.row_blocks() : gpu::FILM_MAX_GATHERED;
     return static_cast<std::uint32_t>(std::min<std::uint64_t>({budget / trips, rows, gpu::FILM_MAX_GATHERED}));
-}
-
-std::vector<PixelRange> pixels_of_tiles(const TileGrid &grid, std::span<const std::uint32_t> tiles) {
-    std::vector<PixelRange> ranges;
-    const auto add = [&](const PixelRange &next) {
-        if (!ranges.empty() && ranges.back().first + ranges.back().count == next.first)
-            ranges.back().count += next.count;
-        else
-            ranges.push_back(next);
-    };
-    for (std::size_t i = 0; i < tiles.size();) {
-        Rectangle side_by_side = grid.pixels(tiles[i]);
-        for (++i; i < tiles.size() && tiles[i] == tiles[i - 1] + 1 && grid.pixels(tiles[i]).x > 0; ++i)
-            side_by_side.width += grid.pixels(tiles[i]).width;
-        for (std::uint32_t row = 0; row < side_by_side.height; ++row)
-            add({(side_by_side.y + row) * grid.width + side_by_side.x, side_by_side.width});
-    }
-    return ranges;
 }
 
 } // namespace
@@ -147,10 +126,6 @@ void Kernel::upload_points(const std::vector<Batch> &batches) {
     }
 }
 
-bool Kernel::folds_on_host() const {
-    return !overlap_ && film_.is_host_memory() && device_.is_at_rest();
-}
-
 // Several invocations take samples of one pixel, so that few tiles keep the device busy.
 std::uint32_t Kernel::sharers_of(std::size_t tile_count, std::uint32_t sample_count) const {
     constexpr std::uint32_t least_samples = 4;
@@ -210,9 +185,6 @@ vulkan::Device::Ticket Kernel::start(const TileSlice &slice, bool on_cleared_fil
     frame.first_entry = tile_lists_.first_entry(slice.tiles);
     const FilmPart kept = split_of(slice.before) < slice.split() ? older_part : newer_part;
     const bool refills = std::ranges::any_of(batches, &Batch::begins_part);
-    HostFold host_fold(film_, kept);
-    const bool is_folded =
-        slice.moves_split() && refills && folds_on_host() && host_fold.fold(pixels_of_tiles(film_.grid(), slice.tiles));
     const vulkan::Device::Ticket ticket = device_.start([&](const vk::raii::CommandBuffer &commands) {
         if (scene_is_old_)
             scene_.write(commands, std::as_bytes(std::span(view_->words)));
@@ -220,7 +192,7 @@ vulkan::Device::Ticket Kernel::start(const TileSlice &slice, bool on_cleared_fil
             film_.clear(commands);
         if (scene_is_old_ || on_cleared_film)
             vulkan::barrier_between_commands(commands);
-        if (slice.moves_split() && !is_folded) {
+        if (slice.moves_split()) {
             frame.film_part = kept;
             frame.is_first = overwrites(refills);
             frame.sample_count = frame.share = 1;
@@ -243,7 +215,6 @@ vulkan::Device::Ticket Kernel::start(const TileSlice &slice, bool on_cleared_fil
             behind(commands);
         }
     });
-    host_fold.keep();
     scene_is_old_ = false;
     return ticket;
 }

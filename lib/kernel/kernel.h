@@ -75,7 +75,6 @@ private:
     void dispatch(const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline,
                   std::span<const std::uint32_t> tiles, gpu::FrameConstants frame, std::uint32_t table_offset) const;
     std::uint32_t sharers_of(std::size_t tile_count, std::uint32_t sample_count) const;
-    bool folds_on_host() const;
 
     // Overlapping dispatches cannot overwrite, because they add atomically.
     std::uint32_t overwrites(bool part_is_empty) const { return part_is_empty && !overlap_ ? 1 : 0; }

@@ -173,11 +173,8 @@ std::string Device::kernel_key(const std::string &code_digest) const {
 }
 
 bool Device::hangs() const {
-    return abandoned_ || (gave_up_ && !is_at_rest());
-}
-
-bool Device::is_at_rest() const {
-    return std::ranges::all_of(submissions_, [&](const Submission &submission) { return ended(submission); });
+    const auto runs = [&](const Submission &submission) { return !ended(submission); };
+    return abandoned_ || (gave_up_ && std::ranges::any_of(submissions_, runs));
 }
 
 bool Device::ended(const Submission &submission) const {

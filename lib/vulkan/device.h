@@ -104,8 +104,6 @@ public:
     // Notes which submissions have ended, so that finish() returns more exact times.
     void look();
 
-    bool is_at_rest() const;
-
     // Waits for a submission. Returns the seconds since its start or, if later, the end of the previous submission. If
     // only bounds are known, returns the value within them nearest to expected_seconds.
     double finish(Ticket ticket, double expected_seconds = 0.0);
