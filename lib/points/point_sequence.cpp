@@ -117,26 +117,11 @@ constexpr std::array<Matrix, sequence_dimensions> sobol_matrices = [] {
     return matrices;
 }();
 
-// The direction numbers of one bit, for all dimensions.
-using Row = std::array<std::uint32_t, sequence_dimensions>;
-using Rows = std::array<Row, 32>;
-
 // With motion, the third number is the time. The fifth dimension gives it a smaller error.
 constexpr std::uint32_t dimension_of(std::uint32_t number, bool motion) {
     constexpr std::uint32_t order[] = {0, 1, 4, 2, 3};
     return motion && number < std::size(order) ? order[number] : number;
 }
-
-constexpr Rows sobol_rows(bool motion) {
-    Rows rows{};
-    for (std::uint32_t bit = 0; bit < 32; ++bit)
-        for (std::uint32_t number = 0; number < sequence_dimensions; ++number)
-            rows[bit][number] = sobol_matrices[dimension_of(number, motion)][bit];
-    return rows;
-}
-
-constexpr Rows rows_at_rest = sobol_rows(false);
-constexpr Rows rows_in_motion = sobol_rows(true);
 
 constexpr std::uint32_t reversed_bits(std::uint32_t x) {
     x = (x >> 16) | (x << 16);
@@ -210,43 +195,32 @@ class PointWriter {
 public:
     PointWriter(std::uint32_t sampler, std::uint64_t seed, const PointLayout &layout) :
         sobol_(sampler == PT_SAMPLER_SOBOL),
-        rows_(layout.has_time() ? rows_in_motion : rows_at_rest),
+        has_time_(layout.has_time()),
         seed_(seed),
         point_(layout.dimensions_of(layout.block_count())) {}
 
     std::span<const std::uint32_t> coordinates(std::uint64_t index, std::uint32_t first, std::uint32_t end) {
         const std::span<std::uint32_t> coordinates = std::span(point_).subspan(first, end - first);
-        if (sobol_) {
-            write_sobol(static_cast<std::uint32_t>(index), first, coordinates);
-            scramble(index >> 32, first, coordinates);
-        } else {
-            for (std::uint32_t i = 0; i < coordinates.size(); ++i)
-                coordinates[i] = radical_inverse(index, first + i);
-        }
+        if (sobol_)
+            seed(index >> 32);
+        for (std::uint32_t i = 0; i < coordinates.size(); ++i)
+            coordinates[i] =
+                sobol_ ? owen_scrambled(sobol(static_cast<std::uint32_t>(index), dimension_of(first + i, has_time_)),
+                                        seeds_[first + i])
+                       : radical_inverse(index, first + i);
         return coordinates;
     }
 
 private:
-    void write_sobol(std::uint32_t index, std::uint32_t first, std::span<std::uint32_t> coordinates) const {
-        std::ranges::fill(coordinates, 0U);
-        for (std::uint32_t rest = index; rest != 0; rest &= rest - 1) {
-            const std::uint32_t *row = &rows_[static_cast<std::uint32_t>(std::countr_zero(rest))][first];
-            for (std::size_t i = 0; i < coordinates.size(); ++i)
-                coordinates[i] ^= row[i];
-        }
-    }
-
-    void scramble(std::uint64_t repetition, std::uint32_t first, std::span<std::uint32_t> coordinates) {
-        if (seeds_.empty() || repetition != repetition_) {
-            repetition_ = repetition;
-            seeds_ = scrambling_seeds(seed_, repetition, static_cast<std::uint32_t>(point_.size()));
-        }
-        for (std::size_t i = 0; i < coordinates.size(); ++i)
-            coordinates[i] = owen_scrambled(coordinates[i], seeds_[first + i]);
+    void seed(std::uint64_t repetition) {
+        if (!seeds_.empty() && repetition == repetition_)
+            return;
+        repetition_ = repetition;
+        seeds_ = scrambling_seeds(seed_, repetition, static_cast<std::uint32_t>(point_.size()));
     }
 
     bool sobol_;
-    const Rows &rows_;
+    bool has_time_;
     std::uint64_t seed_;
     std::uint64_t repetition_ = 0;
     std::vector<std::uint32_t> seeds_;
