@@ -1,35 +1,16 @@
-// Writes pixels that are read back, in each format. Float16 is computed with integers, as on the host
-// (lib/film/pixel_format.h), because Vulkan does not fix how packHalf2x16 rounds and whether it flushes small numbers.
+// Writes pixels that are read back, in each format.
 #ifndef RESOLVED_GLSL
 #define RESOLVED_GLSL
 
 #extension GL_EXT_control_flow_attributes : require
 
-#include "gpu_layout.h"
+#include "half.h"
 
 layout(set = 0, binding = BINDING_RESOLVED) writeonly buffer Resolved { uint words[]; } resolved;
 layout(set = 0, binding = BINDING_FINDINGS) buffer Findings { uint lost_pixels; } findings;
 
 const uint SIGN_BIT = 0x80000000u;
-const uint HALF_INFINITY_BITS = 0x7c00u;
 const uint HALF_ONE_BITS = 0x3c00u;
-
-// Rounds a float32 >= 0 to the nearest float16, ties to even. Values from 65520 on become infinity.
-uint half_bits(uint float_bits)
-{
-    const uint smallest_normal = 0x38800000u; // 2^-14
-    const uint difference_of_biases = 0x38000000u;
-    // Below 2^-14 the last bit is 2^-24.
-    bool normal = float_bits >= smallest_normal;
-    uint number = normal ? float_bits - difference_of_biases : (float_bits & 0x7fffffu) | 0x800000u;
-    uint dropped = normal ? 13u : min(126u - (float_bits >> 23), 25u);
-    uint kept = number >> dropped;
-    uint rest = number & ((1u << dropped) - 1u);
-    uint half_of_last = 1u << (dropped - 1u);
-    bool up = rest > half_of_last || (rest == half_of_last && (kept & 1u) == 1u);
-    // A carry increments the exponent; beyond the largest number it gives infinity.
-    return min(kept + (up ? 1u : 0u), HALF_INFINITY_BITS);
-}
 
 uint signed_half_bits(uint float_bits)
 {

@@ -22,7 +22,7 @@ constexpr std::uint32_t pixel_bytes(std::uint32_t format) {
     return components * component_bytes(format);
 }
 
-// Rounds a number >= 0 to the nearest float16, ties to even. Numbers from 65520 on become infinity.
+// See shaders/half.h.
 std::uint16_t half_bits(float value);
 
 // `values` has R, G and B of each pixel.
