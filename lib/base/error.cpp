@@ -78,11 +78,12 @@ Error::Error(pt_result code, Violations rules) :
 
 Error::Error(pt_result code, BrokenRule rule) : Error(code, only(std::move(rule))) {}
 
-void refuse_argument(std::string_view subject, std::string_view member, std::string_view value, std::string_view rule) {
-    throw Error(PT_ERROR_INVALID_ARGUMENT, BrokenRule{.subject = std::string(subject),
-                                                      .member = std::string(member),
-                                                      .value = std::string(value),
-                                                      .rule = std::string(rule)});
+void refuse_argument(std::string_view subject, std::string_view member, std::string_view value, std::string_view rule,
+                     pt_result code) {
+    throw Error(code, BrokenRule{.subject = std::string(subject),
+                                 .member = std::string(member),
+                                 .value = std::string(value),
+                                 .rule = std::string(rule)});
 }
 
 const char *result_name(pt_result result) noexcept {

@@ -70,9 +70,8 @@ private:
     std::shared_ptr<const Violations> broken_rules_;
 };
 
-// Throws PT_ERROR_INVALID_ARGUMENT.
 [[noreturn]] void refuse_argument(std::string_view subject, std::string_view member, std::string_view value,
-                                  std::string_view rule);
+                                  std::string_view rule, pt_result code = PT_ERROR_INVALID_ARGUMENT);
 
 const char *result_name(pt_result result) noexcept;
 

@@ -119,20 +119,20 @@ public:
         name_(name),
         index_(static_cast<std::int64_t>(index)) {}
 
-    void refuse(const Member &member, const std::string &value, const std::string &rule) const {
+    void refuse(const Member &member, std::string_view value, std::string_view rule) const {
         refuse_component(member, no_component, value, rule);
     }
 
     template <typename Value>
     void require(bool holds, const Member &member, const Value &value, std::string_view rule) const {
         if (!holds)
-            refuse(member, number_text(value), std::string(rule));
+            refuse_value(member, no_component, value, rule);
     }
 
     template <typename Value>
     void check(const Member &member, Value value, Rule rule) const {
         if (const char *broken = rule(value))
-            refuse(member, number_text(value), broken);
+            refuse_value(member, no_component, value, broken);
     }
 
     // Refuses an element of a column. Millions may be refused, so a text is made only for those that are kept.
@@ -141,28 +141,35 @@ public:
         if (violations_.only_count())
             violations_.count_one();
         else
-            refuse_component(member, static_cast<std::int32_t>(element), number_text(value), std::string(rule));
+            refuse_value(member, static_cast<std::int32_t>(element), value, rule);
     }
 
     template <typename Value, std::size_t N>
     void check_each(const Member &member, const Value (&values)[N], Rule rule) const {
         for (std::size_t i = 0; i < N; ++i)
             if (const char *broken = rule(values[i]))
-                refuse_component(member, static_cast<std::int32_t>(i), number_text(values[i]), broken);
+                refuse_value(member, static_cast<std::int32_t>(i), values[i], broken);
     }
 
 private:
     static constexpr std::int32_t no_component = -1;
 
-    void refuse_component(const Member &member, std::int32_t component, const std::string &value,
-                          const std::string &rule) const {
+    // Not inlined, because all checks use them.
+    template <typename Value>
+    [[gnu::noinline]] void refuse_value(const Member &member, std::int32_t component, const Value &value,
+                                        std::string_view rule) const {
+        refuse_component(member, component, number_text(value), rule);
+    }
+
+    [[gnu::noinline]] void refuse_component(const Member &member, std::int32_t component, std::string_view value,
+                                            std::string_view rule) const {
         violations_.add({.subject = name_,
                          .index = index_,
                          .member = member.name,
                          .component = component,
                          .with = member.with,
-                         .value = value,
-                         .rule = rule});
+                         .value = std::string(value),
+                         .rule = std::string(rule)});
     }
 
     Violations &violations_;

@@ -36,10 +36,8 @@ pt_compile_glsl_fn load_compiler(const std::string &shader_directory) {
                 return reinterpret_cast<pt_compile_glsl_fn>(symbol);
         reasons += (reasons.empty() ? "" : "; ") + platform::module_error();
     }
-    throw Error(PT_ERROR_UNSUPPORTED, BrokenRule{.subject = "create",
-                                                 .member = "shader_dir",
-                                                 .value = '"' + shader_directory + '"',
-                                                 .rule = "the compiler's module cannot be loaded: " + reasons});
+    refuse_argument("create", "shader_dir", '"' + shader_directory + '"',
+                    "the compiler's module cannot be loaded: " + reasons, PT_ERROR_UNSUPPORTED);
 }
 
 // Exceptions must not pass through the module's C code.

@@ -64,8 +64,7 @@ private:
             return;
         const std::string rule = std::string("Open Image Denoise 2 cannot be loaded: ") + platform::module_error() +
                                  "; pip install pyoidn installs it as pyoidn/oidn/lib/" + platform::denoiser_file;
-        throw Error(PT_ERROR_UNSUPPORTED,
-                    BrokenRule{.subject = "denoise", .member = "library", .value = '"' + path_ + '"', .rule = rule});
+        refuse_argument("denoise", "library", '"' + path_ + '"', rule, PT_ERROR_UNSUPPORTED);
     }
 
     std::string path_;

@@ -3,7 +3,6 @@
 #include "lib/denoise/halves.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace pt {
 

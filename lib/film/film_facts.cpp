@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <charconv>
 #include <optional>
-#include <string_view>
 
 namespace pt {
 
@@ -82,7 +81,7 @@ void require_apart(const SampleSet &added, const SampleSet &present, const std::
 }
 
 void refuse_film(const std::string &member, const std::string &value, const std::string &rule) {
-    throw Error(PT_ERROR_INCOMPATIBLE, BrokenRule{.subject = "film", .member = member, .value = value, .rule = rule});
+    refuse_argument("film", member, value, rule, PT_ERROR_INCOMPATIBLE);
 }
 
 } // namespace pt

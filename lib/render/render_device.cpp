@@ -129,12 +129,10 @@ void RenderDevice::plant(const std::shared_ptr<const SphereTree> &tree) {
         const std::size_t needed = std::max(tree->node_words().size(), tree->sphere_words().size());
         const std::uint64_t limit = device_.limits().max_texel_count;
         if (needed > limit)
-            throw Error(PT_ERROR_UNSUPPORTED,
-                        BrokenRule{.subject = "scene",
-                                   .member = "sphere_count",
-                                   .value = std::to_string(tree->sphere_count()),
-                                   .rule = "the tree over these spheres takes " + std::to_string(needed) +
-                                           " texels, and this device can bind " + std::to_string(limit)});
+            refuse_argument("scene", "sphere_count", std::to_string(tree->sphere_count()),
+                            "the tree over these spheres takes " + std::to_string(needed) +
+                                " texels, and this device can bind " + std::to_string(limit),
+                            PT_ERROR_UNSUPPORTED);
         tree_buffer_.emplace(device_, vulkan::BufferUse::Texels, words.size(), "tree");
         tree_buffer_->upload(words, 0);
     }

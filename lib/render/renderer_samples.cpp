@@ -1,7 +1,6 @@
 #include "lib/base/error.h"
 #include "lib/film/adaptive_rule.h"
 #include "lib/render/renderer.h"
-#include "lib/view/view.h"
 
 #include <algorithm>
 #include <chrono>
@@ -13,13 +12,6 @@
 namespace pt {
 
 namespace {
-
-Error too_many_samples(std::uint32_t sample_count, const std::string &reason, std::uint64_t number) {
-    return {PT_ERROR_INVALID_ARGUMENT, BrokenRule{.subject = "accumulate",
-                                                  .member = "sample_count",
-                                                  .value = std::to_string(sample_count),
-                                                  .rule = reason + std::to_string(number) + ")"}};
-}
 
 std::uint64_t amount_of(const pt_accumulate_info &wanted, const TileGrid &grid) {
     return wanted.tile_samples == nullptr
@@ -34,10 +26,12 @@ void Renderer::require_room_for(std::uint32_t sample_count) const {
     for (const SampleSet &samples : samples_.sets()) {
         const std::uint64_t missing = sample_index_end - first - (samples.count() - samples.count_below(first));
         if (sample_count > missing)
-            throw too_many_samples(sample_count, "sample indices would pass 2^32 (the next is ",
-                                   samples.next_missing(first).first);
+            refuse_argument("accumulate", "sample_count", std::to_string(sample_count),
+                            "sample indices would pass 2^32 (the next is " +
+                                std::to_string(samples.next_missing(first).first) + ")");
         if (sample_count > UINT32_MAX - samples.count())
-            throw too_many_samples(sample_count, "a pixel holds at most 2^32 - 1 samples (it has ", samples.count());
+            refuse_argument("accumulate", "sample_count", std::to_string(sample_count),
+                            "a pixel holds at most 2^32 - 1 samples (it has " + std::to_string(samples.count()) + ")");
     }
 }
 

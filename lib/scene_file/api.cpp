@@ -55,10 +55,8 @@ void check(const pt_scene_file_info &info) {
     if (info.path == nullptr)
         pt::refuse_argument("info", "path", "NULL", "must not be NULL");
     if ((info.flags & ~known_flags) != 0)
-        throw pt::Error(PT_ERROR_UNSUPPORTED, pt::BrokenRule{.subject = "info",
-                                                             .member = "flags",
-                                                             .value = std::to_string(info.flags),
-                                                             .rule = "must be PT_SCENE_FILE_FRAME or 0"});
+        pt::refuse_argument("info", "flags", std::to_string(info.flags), "must be PT_SCENE_FILE_FRAME or 0",
+                            PT_ERROR_UNSUPPORTED);
     if (info.frame != 0 && info.flags == 0)
         pt::refuse_argument("info", "frame", std::to_string(info.frame), "must be 0 without PT_SCENE_FILE_FRAME");
     if (info.text == nullptr && info.text_bytes != 0)

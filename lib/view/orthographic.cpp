@@ -56,13 +56,11 @@ private:
     void require_held_view() const {
         const double width = camera_.vertical_extent * width_ / height_;
         if (width > max_length)
-            throw Error(PT_ERROR_UNSUPPORTED,
-                        BrokenRule{.subject = "camera",
-                                   .member = "vertical_extent",
-                                   .value = number_text(camera_.vertical_extent),
-                                   .rule = "the view's width, vertical_extent times the image's width / height, must "
-                                           "be at most 1e18, is " +
-                                           number_text(width)});
+            refuse_argument("camera", "vertical_extent", number_text(camera_.vertical_extent),
+                            "the view's width, vertical_extent times the image's width / height, must be at most 1e18, "
+                            "is " +
+                                number_text(width),
+                            PT_ERROR_UNSUPPORTED);
     }
 
     // The depth -height / (normal . forward) is least at a corner.

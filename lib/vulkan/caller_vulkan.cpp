@@ -81,10 +81,8 @@ void require_compute(std::span<const vk::QueueFamilyProperties> families, std::u
 
 void require_suitable(const pt_device_info &physical_device) {
     if (!physical_device.suitable)
-        throw Error(PT_ERROR_UNSUPPORTED, BrokenRule{.subject = "vulkan",
-                                                     .member = "physical_device",
-                                                     .value = physical_device.name,
-                                                     .rule = std::string("does not fit: ") + physical_device.reason});
+        refuse_argument("vulkan", "physical_device", physical_device.name,
+                        std::string("does not fit: ") + physical_device.reason, PT_ERROR_UNSUPPORTED);
 }
 
 } // namespace pt::vulkan

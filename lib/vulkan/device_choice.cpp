@@ -98,11 +98,9 @@ std::size_t indexed_device(std::span<const pt_device_info> devices, const std::s
     std::uint64_t index = UINT64_MAX;
     std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
     if (index >= devices.size())
-        throw Error(PT_ERROR_NO_DEVICE, BrokenRule{.subject = "create",
-                                                   .member = "device",
-                                                   .value = wanted,
-                                                   .rule = "must be an index below " + std::to_string(devices.size()) +
-                                                           ", the number of devices"});
+        refuse_argument("create", "device", wanted,
+                        "must be an index below " + std::to_string(devices.size()) + ", the number of devices",
+                        PT_ERROR_NO_DEVICE);
     const pt_device_info &device = devices[index];
     if (!device.suitable)
         throw Error(PT_ERROR_NO_DEVICE, "device " + wanted + " (" + device.name + ") does not fit: " + device.reason);
@@ -179,15 +177,6 @@ std::optional<std::size_t> same_device_among(std::span<const pt_device_info> dev
     return found == chosen.end() ? std::nullopt : std::optional(*found);
 }
 
-Error named_twice(const std::string &wanted, const std::string &item, const pt_device_info &device, std::size_t index) {
-    return {PT_ERROR_INVALID_ARGUMENT,
-            BrokenRule{.subject = "create",
-                       .member = "device",
-                       .value = '"' + wanted + '"',
-                       .rule = "must not name a device twice: " + item + " is device " + std::to_string(index) + " (" +
-                               device.name + "), which is in the list already"}};
-}
-
 std::vector<std::size_t> all_of_the_best_kind(std::span<const pt_device_info> devices) {
     const std::uint32_t kind = devices[choose_device(devices, "")].kind;
     std::vector<std::size_t> chosen;
@@ -206,7 +195,9 @@ std::vector<std::size_t> choose_devices(std::span<const pt_device_info> devices,
     for (const std::string &item : listed(wanted)) {
         const std::size_t index = choose_device(devices, item);
         if (const std::optional<std::size_t> same = same_device_among(devices, chosen, index))
-            throw named_twice(wanted, item, devices[*same], *same);
+            refuse_argument("create", "device", '"' + wanted + '"',
+                            "must not name a device twice: " + item + " is device " + std::to_string(*same) + " (" +
+                                devices[*same].name + "), which is in the list already");
         chosen.push_back(index);
     }
     return chosen.empty() ? std::vector{choose_device(devices, wanted)} : chosen;
