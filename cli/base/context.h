@@ -14,7 +14,6 @@
 #include <pt/shaders.h>
 #include <pt/stats.h>
 
-#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>

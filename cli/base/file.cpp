@@ -3,7 +3,6 @@
 #include "cli/base/text.h"
 #include "lib/platform/process.h"
 
-#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <iostream>

@@ -132,11 +132,7 @@ std::string attribute_of(const DecodedImage &image, std::string_view name) {
 TestedImage tested(const DecodedImage &image, const std::vector<float> &radiance) {
     const std::vector<float> counts = image.layer(counts_channel);
     const auto [fewest, most] = std::ranges::minmax(counts);
-    const ImageWindow window{
-        {static_cast<std::uint32_t>(image.x), static_cast<std::uint32_t>(image.y), image.width, image.height},
-        image.full_width,
-        image.full_height};
-    return {window,
+    return {image.window(),
             radiance,
             static_cast<std::uint32_t>(fewest),
             static_cast<std::uint32_t>(most),

@@ -4,7 +4,6 @@
 #include "lib/scene_file/sphere_columns.h"
 
 #include <algorithm>
-#include <cstddef>
 
 namespace cli {
 namespace {

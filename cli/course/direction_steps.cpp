@@ -1,7 +1,6 @@
 #include "cli/course/step_parts.h"
 #include "cli/course/step_values.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 

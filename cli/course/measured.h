@@ -5,10 +5,8 @@
 #include "cli/compare/light.h"
 #include "cli/scene/scene.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>

@@ -1,8 +1,6 @@
 #include "cli/course/step_parts.h"
 #include "cli/course/step_values.h"
 
-#include <cmath>
-
 namespace cli {
 namespace {
 

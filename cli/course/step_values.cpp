@@ -3,7 +3,6 @@
 #include "cli/selftest/selftest.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace cli {
 

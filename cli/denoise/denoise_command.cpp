@@ -68,11 +68,8 @@ RenderReport read_halves(const DenoiseOptions &options, Halves &halves) {
 
 DecodedImage read_guides(const std::string &path, const ImageWindow &window) {
     DecodedImage guides = read_image(path);
-    const Rectangle part{static_cast<std::uint32_t>(guides.x), static_cast<std::uint32_t>(guides.y), guides.width,
-                         guides.height};
-    const ImageWindow other{part, guides.full_width, guides.full_height};
-    refuse_if(other != window,
-              concat(path, ": is ", window_text(other), ": must be ", window_text(window), " like the films"));
+    refuse_if(guides.window() != window, concat(path, ": is ", window_text(guides.window()), ": must be ",
+                                                window_text(window), " like the films"));
     return guides;
 }
 

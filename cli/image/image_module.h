@@ -5,8 +5,6 @@
 #include "cli/base/number.h"
 #include "cli/base/text.h"
 
-#include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -113,6 +111,11 @@ struct DecodedImage {
     std::vector<std::string> channels;
     std::vector<float> values;
     std::vector<ImageAttribute> attributes;
+
+    // Wraps if the image begins outside the picture.
+    ImageWindow window() const {
+        return {{static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), width, height}, full_width, full_height};
+    }
 
     // Three values per pixel. A single channel is repeated. An empty name means the main layer. Throws
     // Failure(ExitCode::file) if there is no such layer.

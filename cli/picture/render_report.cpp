@@ -7,7 +7,6 @@
 #include "lib/scene_file/enumerations.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>

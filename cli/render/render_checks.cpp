@@ -1,6 +1,5 @@
 #include "cli/render/render_checks.h"
 
-#include "cli/base/text.h"
 #include "cli/picture/picture_output.h"
 #include "cli/render/source_watch.h"
 

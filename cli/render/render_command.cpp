@@ -10,22 +10,28 @@
 #include <filesystem>
 #include <optional>
 #include <utility>
-#include <vector>
 
 namespace cli {
 namespace {
 
-int render_once(const RenderOptions &options, ValidationLog &log) {
-    RenderTimes times;
-    check_names(options);
-    RenderTask task(options, read_scene_file(options.scene, options.overrides));
+// Makes the context if there is none.
+ExitCode render(RenderTask task, RenderTimes times, std::optional<Context> &context, ValidationLog &log) {
     task.load();
     check_outputs(task);
-    catch_signals();
-
     times.create_start = std::chrono::steady_clock::now();
-    const Context context(render_create_info(options, log), kernel_use(task));
-    const ExitCode outcome = render_picture(context, task, times, [] { return false; });
+    if (!context) {
+        catch_signals();
+        context.emplace(render_create_info(task.options, log), kernel_use(task));
+    }
+    return render_picture(*context, task, times, [&] { return task.options.frames && interrupt_signal() != 0; });
+}
+
+int render_once(const RenderOptions &options, ValidationLog &log) {
+    const RenderTimes times;
+    check_names(options);
+    std::optional<Context> context;
+    RenderTask task(options, read_scene_file(options.scene, options.overrides));
+    const ExitCode outcome = render(std::move(task), times, context, log);
     return exit_code_of(outcome, interrupt_signal());
 }
 
@@ -49,64 +55,32 @@ bool is_done(const OutputOptions &frame) {
     });
 }
 
-class FramesRender {
-public:
-    FramesRender(const RenderOptions &options, ValidationLog &log) :
-        options_(options),
-        log_(log),
-        scene_(read_scene_file(options.scene, options.overrides)) {
-        refuse_if(scene_.animation.empty(), scene_.path + ": has no animation, which --frames needs", ExitCode::scene);
-    }
-
-    int run() {
-        const FrameRange frames = options_.frames.value();
-        for (std::uint64_t frame = frames.first; frame <= frames.last; ++frame) {
-            const auto number = static_cast<std::uint32_t>(frame);
-            const RenderOptions numbered = options_of_frame(options_, number);
-            if (options_.skip_existing && is_done(numbered.output))
-                continue;
-            const ExitCode outcome = render(numbered, number);
-            if (outcome == ExitCode::file)
-                return static_cast<int>(ExitCode::file);
-            if (interrupt_signal() != 0) {
-                print_message(concat("stopped by ", interrupt_name(), " in frame ", number));
-                return exit_code_of_signal(interrupt_signal());
-            }
-            is_target_missed_ = is_target_missed_ || outcome == ExitCode::target_missed;
-        }
-        return static_cast<int>(is_target_missed_ ? ExitCode::target_missed : ExitCode::done);
-    }
-
-private:
-    // Each frame has its own seed, because equal noise in all frames would look like a fixed pattern.
-    RenderTask task_of(const RenderOptions &options, std::uint32_t frame) const {
-        RenderTask task(options, with_exit_code([&] { return pt::scene_in_frame(scene_, frame); }));
-        task.load();
-        return task;
-    }
-
-    ExitCode render(const RenderOptions &options, std::uint32_t frame) {
-        RenderTimes times;
-        check_names(options);
-        const RenderTask task = task_of(options, frame);
-        check_outputs(task);
-        times.create_start = std::chrono::steady_clock::now();
-        if (!context_) {
-            catch_signals();
-            context_.emplace(render_create_info(options_, log_), kernel_use(task));
-        }
-        return render_picture(*context_, task, times, [] { return interrupt_signal() != 0; });
-    }
-
-    const RenderOptions &options_;
-    ValidationLog &log_;
-    SceneFile scene_;
-    std::optional<Context> context_;
-    bool is_target_missed_ = false;
-};
-
+// Each frame has its own seed, because equal noise in all frames would look like a fixed pattern.
 int render_frames(const RenderOptions &options, ValidationLog &log) {
-    return FramesRender(options, log).run();
+    const SceneFile scene = read_scene_file(options.scene, options.overrides);
+    refuse_if(scene.animation.empty(), scene.path + ": has no animation, which --frames needs", ExitCode::scene);
+    std::optional<Context> context;
+    ExitCode result = ExitCode::done;
+    const auto [first, last] = options.frames.value();
+    for (std::uint64_t frame = first; frame <= last; ++frame) {
+        const auto number = static_cast<std::uint32_t>(frame);
+        const RenderOptions numbered = options_of_frame(options, number);
+        if (options.skip_existing && is_done(numbered.output))
+            continue;
+        const RenderTimes times;
+        check_names(numbered);
+        RenderTask task(numbered, with_exit_code([&] { return pt::scene_in_frame(scene, number); }));
+        const ExitCode outcome = render(std::move(task), times, context, log);
+        if (outcome == ExitCode::file)
+            return static_cast<int>(ExitCode::file);
+        if (interrupt_signal() != 0) {
+            print_message(concat("stopped by ", interrupt_name(), " in frame ", number));
+            return exit_code_of_signal(interrupt_signal());
+        }
+        if (outcome == ExitCode::target_missed)
+            result = outcome;
+    }
+    return static_cast<int>(result);
 }
 
 } // namespace

@@ -1,7 +1,6 @@
 #include "cli/render/render_command.h"
 
 #include "cli/base/devices.h"
-#include "cli/base/environment.h"
 #include "cli/base/exit_code.h"
 #include "cli/base/file.h"
 #include "cli/base/interrupt.h"
@@ -11,7 +10,6 @@
 #include "cli/film/film.h"
 #include "cli/picture/denoise.h"
 #include "cli/picture/picture_output.h"
-#include "cli/render/render_checks.h"
 #include "cli/render/warnings.h"
 
 #include <pt/denoise.h>

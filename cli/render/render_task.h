@@ -4,8 +4,6 @@
 #include "cli/render/render_options.h"
 #include "cli/scene/scene.h"
 
-#include <functional>
-
 namespace cli {
 
 struct RenderTask {

@@ -1,7 +1,7 @@
 #include "cli/render/warnings.h"
 
-#include "cli/base/json.h"
 #include "cli/base/text.h"
+#include "lib/scene/srgb.h"
 
 #include <algorithm>
 #include <array>
@@ -29,11 +29,6 @@ float reflected_share(const pt_material &material) {
     return largest;
 }
 
-double light_of_byte(float byte) {
-    const double signal = byte / 255.0;
-    return signal <= 0.04045 ? signal / 12.92 : std::pow((signal + 0.055) / 1.055, 2.4);
-}
-
 std::string byte_color_text(const pt_material &material) {
     std::array<std::string, 3> bytes;
     std::array<std::string, 3> shares;
@@ -43,7 +38,7 @@ std::string byte_color_text(const pt_material &material) {
     const bool is_color = std::ranges::all_of(material.diffuse, is_byte) && std::ranges::max(material.diffuse) > 1.0F;
     for (std::size_t i = 0; i < 3 && is_color; ++i) {
         bytes[i] = formatted("%.0f", material.diffuse[i]);
-        shares[i] = formatted("%.3g", light_of_byte(material.diffuse[i]));
+        shares[i] = formatted("%.3g", pt::srgb::decoded(material.diffuse[i] / 255.0));
     }
     return is_color ? concat("; the sRGB color ", listed(bytes), " is [", listed(shares), "]") : "";
 }

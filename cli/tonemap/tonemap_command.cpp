@@ -36,9 +36,7 @@ ImageWindow window_of(const DecodedImage &image) {
     };
     if (!inside(image.x, image.width, image.full_width) || !inside(image.y, image.height, image.full_height))
         return whole_window(image.width, image.height);
-    return {{static_cast<std::uint32_t>(image.x), static_cast<std::uint32_t>(image.y), image.width, image.height},
-            image.full_width,
-            image.full_height};
+    return image.window();
 }
 
 [[noreturn]] void refuse(const DecodedImage &image, std::size_t pixel, const std::string &what) {

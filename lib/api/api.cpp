@@ -18,7 +18,6 @@
 #include <pt/vulkan.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>

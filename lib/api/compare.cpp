@@ -7,7 +7,6 @@
 #include "lib/film/comparison.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 namespace pt {

@@ -3,7 +3,6 @@
 #include "shaders/neighbourhood.h"
 
 #include <array>
-#include <cmath>
 #include <numeric>
 
 namespace pt {

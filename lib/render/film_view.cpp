@@ -1,7 +1,6 @@
 #include "lib/render/film_view.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace pt {
 

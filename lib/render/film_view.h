@@ -14,9 +14,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <list>
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>

@@ -28,7 +28,6 @@
 #include <pt/stats.h>
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>

@@ -6,7 +6,6 @@
 #include <exception>
 #include <iterator>
 #include <set>
-#include <utility>
 #include <vector>
 
 namespace pt {

@@ -5,7 +5,6 @@
 #include "shaders/gpu_layout.h"
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <vector>

@@ -4,7 +4,6 @@
 #include "lib/base/rules.h"
 
 #include <cmath>
-#include <string>
 
 namespace pt {
 
