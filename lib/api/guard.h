@@ -16,7 +16,7 @@ namespace pt {
 
 class LastError {
 public:
-    // Without memory for the message, stores a fixed one without rules.
+    // If there is no memory for the message, stores a fixed message without rules.
     void store(std::string_view message, std::shared_ptr<const Violations> broken_rules = nullptr) noexcept {
         try {
             const std::string shown = platform::printable_lines(message);

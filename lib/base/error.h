@@ -25,7 +25,7 @@ struct BrokenRule {
     // "spheres[3].center[0]"
     std::string field() const;
 
-    // "spheres[3].center[0] = nan: must be finite", "render.width * height = 0: ..."
+    // "spheres[3].center[0] = nan: must be finite"
     std::string text() const { return text(field()); }
     std::string text(const std::string &name_of_field) const;
 };

@@ -135,7 +135,7 @@ public:
             refuse_value(member, no_component, value, broken);
     }
 
-    // Refuses an element of a column. Millions may be refused, so a text is made only for those that are kept.
+    // Refuses an element of a column. Millions may be refused, so only the kept ones get a text.
     template <typename Value>
     void refuse_element(const Member &member, std::size_t element, const Value &value, std::string_view rule) const {
         if (violations_.only_count())

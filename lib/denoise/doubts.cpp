@@ -11,7 +11,7 @@ namespace pt {
 
 namespace {
 
-constexpr std::size_t block_step = 16; // pixels from one block's center to the next
+constexpr std::size_t block_step = 16;
 
 // The expected change of a pixel's squared error by its moves, summed over channels.
 struct Change {

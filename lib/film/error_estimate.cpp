@@ -45,10 +45,10 @@ void add_squares(ErrorSquares &to, const ErrorSquares &other, double factor = 1.
 }
 
 // Returns the factor for squared relative errors in pixels where only one half of the samples has hit a light. Let w be
-// the expected number of hits in a pixel, and q = e^(-w / 2). Neither half hits the light in a fraction q^2 of the
-// pixels, exactly one half in 2 q (1 - q), and both halves in (1 - q)^2. If hits by both halves are b times as frequent
-// as hits by exactly one, w = 2 ln(1 + 2 b). If only one half hits the light in a pixel of mean T, the pixel's expected
-// value is w T. So its error relative to this value is 1 / w times its error relative to T.
+// the expected number of hits in a pixel, and q = e^(-w / 2). Exactly one half hits the light in a fraction 2 q (1 - q)
+// of the pixels, both halves in (1 - q)^2. If hits by both halves are b times as frequent as hits by exactly one, w = 2
+// ln(1 + 2 b). If only one half hits the light in a pixel of mean T, the pixel's expected value is w T. So its error
+// relative to this value is 1 / w times its error relative to T.
 double square_by_hits(double met_once, double met_again) {
     const double hits = 2.0 * std::log1p(2.0 * met_again / (met_once + 1.0));
     return std::max(1.0, 1.0 / squared(hits));

@@ -14,9 +14,8 @@ extern "C" {
  * call. Must not throw. */
 typedef void (*pt_glsl_receive_fn)(void *user, const void *bytes, size_t size);
 
-/* Compiles the compute shader directory/name to the SPIR-V that the build would embed. Calls `receive` once.
- * Returns 0 if that was with the SPIR-V, and -1 if it was with the log. Lines of the log begin with file and line.
- * Thread-safe. */
+/* Compiles the compute shader directory/name to the SPIR-V that the build would embed. Calls `receive` once. Returns 0
+ * if it passed the SPIR-V, and -1 if it passed the log. Lines of the log begin with file and line. Thread-safe. */
 typedef int32_t (*pt_compile_glsl_fn)(const char *directory, const char *name, pt_glsl_receive_fn receive, void *user);
 
 #define PT_COMPILE_GLSL_SYMBOL "pt_glsl_compile"

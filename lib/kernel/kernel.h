@@ -40,7 +40,7 @@ public:
 
     void build(TracePipelines &pipelines) const;
 
-    // Forces drivers to compile that do so only at the first dispatch. No work may be running.
+    // Dispatches no workgroups, because some drivers compile only at the first dispatch. No work may be running.
     void dispatch_nothing();
 
     std::uint32_t max_samples() const { return max_dispatch_samples_ * (max_tables - 1); }
@@ -50,7 +50,6 @@ public:
     // At most queue_depth slices may be running.
     vulkan::Device::Ticket start(const TileSlice &slice, bool on_cleared_film, const Behind &behind = {});
 
-    // Returns seconds as vulkan::Device::finish() does.
     double finish(vulkan::Device::Ticket ticket, double expected_seconds = 0.0);
 
 private:

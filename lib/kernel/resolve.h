@@ -17,7 +17,7 @@ namespace pt {
 struct ImageQuery {
     Rectangle pixels;
     std::uint32_t quantity;
-    double unit; // radiance per film unit
+    double unit;
     std::optional<PartCounts> samples;
     std::uint32_t format = PT_FORMAT_RGB32F;
 };

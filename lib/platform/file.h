@@ -55,7 +55,7 @@ bool lock_created(int descriptor);
 // Removes a file unless a process has locked it.
 void remove_abandoned(const std::filesystem::path &path);
 
-// Renames a new file after its bytes are on the disk. A replaced file passes its permissions on.
+// Renames a new file after its bytes are on the disk. The new file gets the permissions of a replaced file.
 bool rename_written(int descriptor, const std::filesystem::path &from, const std::filesystem::path &to);
 
 // Returns no value if the file is not regular.

@@ -33,7 +33,7 @@ public:
 
     std::string all();
 
-    // Stops after a block with a NUL byte, because the file is then no text.
+    // Stops after a block with a NUL byte, because such a file is not text.
     std::string text();
 
 private:

@@ -27,8 +27,8 @@ public:
 
     void read(const Image &image, const ImageQuery &query, const TileSamples &samples);
 
-    // Returns the image without gaps in memory of the device, or no value if the device does not compute images. Valid
-    // until the next call or a new film.
+    // Returns the pixels, without gaps, in the device's memory. Returns no value if the device does not compute images.
+    // Valid until the next call or a new film.
     std::optional<std::span<std::byte>> map(const ImageQuery &query);
 
     // Adds the errors of all tiles to the estimator, and fills query.by_tile. If `is_recorded`, the last submission of

@@ -133,7 +133,7 @@ inline MovingBall surface_of(const glm::dvec3 &open, double radius, const glm::v
     return {open, glm::dvec3(way), radius, way.w > 0.0F ? Kind::capsule : Kind::ball};
 }
 
-// Balls add nothing, so that scenes without capsules keep their digests in old films.
+// Balls add nothing, so that scenes without capsules still match old films.
 inline void add_kind(Digest &digest, Kind kind) {
     if (kind != Kind::ball)
         digest.add(std::uint64_t{static_cast<std::uint8_t>(kind)} - 1);

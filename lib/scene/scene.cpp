@@ -85,7 +85,7 @@ void add(Digest &digest, const Material &material) {
     digest.add(material.specular);
     digest.add(material.emission);
     digest.add(static_cast<double>(material.glossiness));
-    if (material.hidden) // scenes without hidden materials keep their digests
+    if (material.hidden) // scenes without hidden materials still match old films
         digest.add(std::uint64_t{PT_MATERIAL_HIDDEN_FROM_CAMERA});
 }
 

@@ -74,8 +74,8 @@ private:
         }
     }
 
-    // Returns the array if all spheres are in one, otherwise NULL. Spheres of the array `before` must have values of
-    // this array already; only fields with columns change.
+    // Returns the array if all spheres are in one, otherwise NULL. `before` is the last result for the same `spheres`.
+    // If the array is `before` again, only fields with columns change.
     const pt_sphere_array *read(std::span<const std::uint32_t> indices, std::span<Sphere> spheres,
                                 const pt_sphere_array *before) const;
 

@@ -53,7 +53,7 @@ public:
                 json::parse(TellingIterator(begin_, reached_), TellingIterator(begin_ + text.size(), reached_),
                             take_next, throws, ignore_comments);
         } catch (const json::out_of_range &error) {
-            constexpr int number_overflow = 406; // documented by nlohmann-json
+            constexpr int number_overflow = 406;
             if (error.id != number_overflow)
                 throw;
             refuse_overflow(error.what());

@@ -28,7 +28,7 @@ using JsonPath = std::vector<JsonStep>;
 // Returns for example spheres[3].radius or materials["blue ball"].diffuse[0].
 std::string path_text(const JsonPath &path);
 
-// The path is empty if the text begins with none.
+// The path is empty if the text does not begin with a path.
 struct ParsedPath {
     JsonPath path;
     std::string_view rest;

@@ -44,7 +44,7 @@ void check_projection(const pt_camera &camera, const JsonPlace &place) {
 
 class SceneReader : public JsonItemHandler {
 public:
-    // `scene` must have its overrides.
+    // `scene` must already have its overrides.
     explicit SceneReader(SceneFile &scene) : scene_(scene) {}
 
     // Functions also throw JsonRefusal.

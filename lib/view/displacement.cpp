@@ -16,9 +16,9 @@ namespace pt {
 
 namespace {
 
-// The unit is length + radius.
+// In units of length + radius.
 constexpr double rounding_of_capsules = 0x1p-21;
-// The unit is the radius. The last bits of its float32 are the opacity.
+// In units of the radius. The last bits of the radius's float32 are the opacity.
 constexpr double rounding_of_radii = 0.5 * (gpu::TREE_OPACITY_STEPS + 1) * 0x1p-23;
 
 // Largest displacements by rounding, in scene units.

@@ -18,9 +18,9 @@ struct HiddenCounts {
 };
 
 // The order is lamps, skies, other spheres, curved planes, planes. A sky is an emitting sphere around the camera, which
-// cannot be sampled from inside. Within each kind the scene's order is kept, except for hidden surfaces. These are the
-// last lamps, first skies, last other spheres and first planes, so that the visible spheres form two ranges. A hidden
-// sky that lies apart from all visible surfaces is a lamp.
+// cannot be sampled from inside. Within each kind visible surfaces keep the scene's order. Hidden surfaces are the last
+// lamps, first skies, last other spheres and first planes, so that the visible spheres form two ranges. A hidden sky
+// that lies apart from all visible surfaces is a lamp.
 struct KernelSurfaces {
     std::vector<SeenSphere> spheres;
     std::vector<CurvedPlane> planes;

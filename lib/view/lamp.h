@@ -16,7 +16,7 @@ inline float mean(const glm::vec3 &color) {
     return (color.r + color.g + color.b) / 3.0F;
 }
 
-// Trees of lamps, small lamps, spots and stated errors know only a lamp's bounding ball.
+// The lamp tree, small lamps, spots and error estimates use only a lamp's bounding ball.
 struct Lamp {
     MovingBall bound; // relative to the camera
     glm::vec3 emission;

@@ -23,7 +23,7 @@ struct PreparedScene {
     bool gloss;
     std::shared_ptr<const SphereTree> tree; // NULL for few spheres
     bool moves;
-    std::vector<std::uint32_t> lamp_order; // of order_in_lamp_tree()
+    std::vector<std::uint32_t> lamp_order; // result of order_in_lamp_tree()
 
     explicit PreparedScene(Scene of);
 

@@ -9,7 +9,7 @@ namespace pt {
 struct DistinctScene {
     SeenScene seen;
     bool close_lamps;
-    bool close_planes; // two planes differ by less than 2^-8 in direction and distance
+    bool close_planes; // two planes differ by less than two_planes
 };
 
 DistinctScene without_twins(SeenScene seen);

@@ -27,7 +27,7 @@ constexpr std::uint32_t largest_uniform_range = 65'536;
 // More invocations than a large GPU runs at once.
 constexpr std::uint32_t busy_gpu_invocations = 1U << 18;
 
-// Submissions should take 0.05 seconds.
+// Submissions should take only 0.05 seconds.
 constexpr std::chrono::seconds gpu_patience{10};
 constexpr std::chrono::nanoseconds wait_step = std::chrono::milliseconds{100};
 
@@ -152,7 +152,7 @@ Device::~Device() {
     if (!abandoned_ && comes_to_rest())
         return;
     // Releases the device instead of destroying it, because vkDestroyDevice may wait forever for running work (NVIDIA
-    // 580.159). Destroying the instance before it would crash.
+    // 580.159). Destroying the instance before the device would crash.
     pipeline_cache_.abandon();
     for (Submission &submission : submissions_) {
         submission.fence.release();
@@ -324,7 +324,7 @@ bool Device::look_at(Submission &submission, std::chrono::nanoseconds timeout) {
         }
         return ended;
     } catch (const vk::SystemError &error) {
-        // Waits, because after the error callers may destroy objects that running work uses.
+        // Waits, because callers may destroy objects after the error, and running work may use them.
         comes_to_rest();
         lose([&] { return error.what(); });
     }

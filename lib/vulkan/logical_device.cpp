@@ -37,7 +37,7 @@ vk::raii::Device create_device(const vk::raii::PhysicalDevice &physical_device, 
                                                 nullptr, functions);
     try {
         return {physical_device, device};
-    } catch (const std::bad_alloc &) { // no memory for the function table
+    } catch (const std::bad_alloc &) {
         const PFN_vkVoidFunction destroy = functions.vkGetDeviceProcAddr(device, "vkDestroyDevice");
         reinterpret_cast<PFN_vkDestroyDevice>(destroy)(device, nullptr);
         throw;

@@ -7,7 +7,6 @@
  * - Devices: The library starts no threads. Between calls each device has at most two submissions, and only pt_poll
  *   gives it more. To keep devices busy, let pt_poll wait, or make submissions longer than the time between two polls
  *   (pt_create_info.submit_milliseconds).
- * - Threads: Any thread may poll, one at a time.
  * - State: Samples are being taken after pt_start has returned PT_PENDING, until pt_poll returns another result.
  *   Meanwhile other calls on the context return PT_ERROR_INVALID_STATE. Exceptions are pt_cancel,
  *   pt_get_context_device, pt_last_error, pt_get_broken_rule and pt_destroy, which waits for the current submissions.
@@ -35,19 +34,19 @@ extern "C" {
  * and no samples are being taken. Fails as pt_accumulate does. */
 PT_API pt_result pt_start(pt_context *context, const pt_accumulate_info *info);
 
-/** Gives the devices more work, and waits for at most this many nanoseconds; with UINT64_MAX until all samples are
- * taken.
+/** Gives the devices more work, and waits for at most the given number of nanoseconds. UINT64_MAX waits until all
+ * samples are taken.
  *
  * The call may take longer when it checks a target error, which reads the image. pt_poll builds no kernel. fraction may
  * be NULL. Otherwise it receives the finished fraction of the samples, in [0, 1], which never decreases.
  *
  * One thread at a time. PT_PENDING: samples are still being taken. PT_OK: all samples are taken. PT_TARGET_REACHED:
- * fewer were enough. PT_CANCELLED: pt_cancel was called; fewer samples are taken, all of them complete.
- * PT_ERROR_INVALID_STATE: no samples are being taken. After any result except PT_PENDING no samples are being taken,
- * unless the call was refused because it was made in a callback or while another thread was in a call. */
+ * fewer samples were enough. PT_CANCELLED: pt_cancel was called; fewer samples are taken, all of them complete.
+ * PT_ERROR_INVALID_STATE: no samples are being taken. In a callback, or during another thread's call, pt_poll returns
+ * PT_ERROR_INVALID_STATE without ending the sampling. */
 PT_API pt_result pt_poll(pt_context *context, uint64_t nanoseconds, double *fraction);
 
-/** Asks for no more samples, and returns at once.
+/** Asks the context to stop taking samples, and returns at once.
  *
  * After pt_start, call pt_poll until it does not return PT_PENDING. pt_poll completes the current sample of all pixels.
  * A running pt_accumulate ends as if pt_progress_fn had asked to stop, with PT_CANCELLED, or with PT_OK if all samples

@@ -72,8 +72,8 @@ typedef struct pt_comparison {
     /** Smallest change of all light, like pt_compared_region.smallest_change. */
     double smallest_change;
     double smallest_tile_change; /**< median over tiles of 32 x 32 pixels of their smallest_change */
-    double rate;                 /**< rate of this comparison; light differs where the probability is at most this */
-    char summary[160];           /**< the result as a sentence; ASCII, zero-terminated */
+    double rate;       /**< rate of this comparison; a region differs if its probability is at most this rate */
+    char summary[160]; /**< the result as a sentence; ASCII, zero-terminated */
 } pt_comparison;
 
 /** Compares the light of two images, and lists the compared regions.

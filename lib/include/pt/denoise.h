@@ -2,9 +2,9 @@
  * pt: denoising by Open Image Denoise, with the error of the denoised picture.
  *
  * pt_denoise filters two images of one scene, which have different seeds and equally many samples. The result lies
- * between the mean of both and the filtered images (shaders/README.md, section 11). No value leaves the range of both
- * images within the 3 x 3 pixels about it. The mean of a channel moves by at most its standard error. Values stay
- * unfiltered where the expected error of 32 x 32 pixels would rise.
+ * between the mean of both and the filtered images (shaders/README.md, section 11). Each value stays within the range
+ * that both images have in the 3 x 3 pixels about it. The mean of a channel moves by at most its standard error. Values
+ * stay unfiltered where the expected error of 32 x 32 pixels would rise.
  */
 #ifndef PT_DENOISE_H
 #define PT_DENOISE_H
@@ -25,8 +25,8 @@ typedef struct pt_denoise_info {
      * can set. */
     uint32_t any_device;
     const float *first; /**< radiance: PT_QUANTITY_RADIANCE; finite */
-    /** The radiance with another pt_render.seed. All else must be equal, also each pixel's number of samples. Parts of
-     * one sample sequence give a too small error. */
+    /** The radiance with another pt_render.seed. All else must be equal, also each pixel's number of samples. With two
+     * parts of one sample sequence, the error would be too small. */
     const float *second;
     const float *albedo; /**< PT_QUANTITY_ALBEDO */
     const float *normal; /**< PT_QUANTITY_NORMAL */
@@ -40,8 +40,7 @@ typedef struct pt_denoise_info {
  *
  * If q estimates the squared error and s is its standard error, the error is sqrt(q + 1.28 s), the bounds sqrt(q - 1.96
  * s) and sqrt(q + 1.96 s). If the error comes from fewer than 8 tiles of 8 x 8 pixels, it is uncertain
- * (PT_UNCERTAIN_RMSE, PT_UNCERTAIN_RELATIVE_RMSE), and the bounds are twice as wide. Light that no sample has found is
- * not included.
+ * (PT_UNCERTAIN_RMSE, PT_UNCERTAIN_RELATIVE_RMSE), and the bounds are twice as wide.
  *
  * Any thread. PT_ERROR_UNSUPPORTED: Open Image Denoise is missing, has another version, or does not run on this
  * processor. */

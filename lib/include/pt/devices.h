@@ -11,9 +11,9 @@
  *
  * Several devices of one model and driver give the same bits as one of them.
  *
- * llvmpipe, which runs on CPUs, reads the width of its vectors from the environment with the process's first instance.
- * The library never sets the environment. A program that renders on llvmpipe can be started with the variables that
- * `pt devices --vector-width tree` prints, or set them before its threads. The width does not change the bits. */
+ * llvmpipe, which runs on CPUs, reads the width of its vectors from the environment when the process makes its first
+ * instance. A program that renders on llvmpipe can be started with the variables that `pt devices --vector-width tree`
+ * prints, or set them before its threads. The width does not change the bits. */
 #ifndef PT_DEVICES_H
 #define PT_DEVICES_H
 

@@ -39,8 +39,7 @@ typedef struct pt_display_info {
 } pt_display_info;
 
 /** Makes pixels for a display. A component is its signal times 255 or 65535, rounded; halves round up. Alpha is linear.
- *
- * A fixed exposure lets several threads convert parts of a picture, with the same result. Any thread. */
+ * Any thread. */
 PT_API pt_result pt_display(const pt_display_info *info);
 
 /** Finds the exposure that brings the average to middle grey, 0.18. The exposure is in stops, rounded to hundredths, in

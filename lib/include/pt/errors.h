@@ -2,7 +2,7 @@
  * pt: errors and warnings as data.
  *
  * If fields break rules, the message of pt_last_error has a line for each rule: "spheres[3].center[0] = nan: must be
- * finite", "render.width * height = 0: ...". pt_broken_rule has the parts of such a line. */
+ * finite". pt_broken_rule has the parts of such a line. */
 #ifndef PT_ERRORS_H
 #define PT_ERRORS_H
 

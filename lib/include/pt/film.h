@@ -31,8 +31,7 @@ PT_API pt_result pt_save_film(pt_context *context, void *data, uint64_t *size_by
  * The bytes may come from an untrusted source.
  *
  * One thread at a time. PT_ERROR_INCOMPATIBLE: the bytes are not a film, are damaged, belong to another picture, or
- * have samples that the context already has. The message has a line for each difference. PT_ERROR_OUT_OF_DEVICE_MEMORY:
- * the device has too little memory for a second copy of the sums. */
+ * have samples that the context already has. The message has a line for each difference. */
 PT_API pt_result pt_add_film(pt_context *context, const void *data, uint64_t size_bytes);
 
 /* ---- Films without a context ------------------------------------------------------------------------------------ */
@@ -122,18 +121,17 @@ PT_API pt_result pt_get_film_ranges(const pt_film *film, uint32_t tile, pt_sampl
  * rectangle of pt_film_info. All other fields become 0. One thread at a time. */
 PT_API pt_result pt_get_film_stats(const pt_film *film, pt_stats *stats);
 
-/** Estimates the error of a film's image, as pt_get_error_estimate does for a context. A film does not have the scene's
- * lamps. So PT_UNCERTAIN_UNMET is set whenever the estimator finds lamps by chance (uniform, cosine, bsdf) and
+/** Estimates the error of a film's image, as pt_get_error_estimate does for a context. A film does not store the
+ * scene's lamps, so PT_UNCERTAIN_UNMET is set whenever the estimator finds lamps by chance (uniform, cosine, bsdf) and
  * max_path_length is above 1. One thread at a time. */
 PT_API pt_result pt_get_film_error_estimate(const pt_film *film, pt_error_estimate *error);
 
 /** Decides which samples a film needs next to reach a target error, as pt_accumulate does with PT_SAMPLING_ADAPTIVE.
  * Other machines can then take these samples (pt_accumulate_info.tile_samples).
  *
- * The film must have whole rows of an image, from a row that is a multiple of 8. Tiles are the squares of 8 x 8 pixels
- * of pt_accumulate_info.
+ * The film must have whole rows of an image, from a row that is a multiple of 8. Tiles are as in pt_accumulate_info.
  * - target_error: > 0 and finite
- * - most: the most samples of a pixel
+ * - most: the largest number of samples of a pixel
  * - goals: receives the number of samples that the pixels of each tile need, at least what they have. If goals is NULL,
  *   *count receives the number of tiles. Otherwise *count must be the number of tiles.
  *

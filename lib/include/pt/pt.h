@@ -240,7 +240,7 @@ enum {
     PT_ESTIMATOR_MIS = 5      /**< light and bsdf combined by weights */
 };
 
-/** Values of pt_render.sampler: the source of a sample's numbers. All samplers converge to the same image. */
+/** Values of pt_render.sampler: the source of a sample's numbers. */
 enum {
     PT_SAMPLER_BEST = 0,      /**< the best one in this version: sobol */
     PT_SAMPLER_RANDOM = 1,    /**< independent random numbers */
@@ -289,8 +289,8 @@ enum {
 typedef struct pt_accumulate_info {
     uint32_t struct_size; /**< sizeof(pt_accumulate_info) */
     /** Samples to add to every pixel, >= 1; their indices stay below 2^32. If target_error is set, the pixels with most
-     * samples get at most this number. sample_count may then be 0, to add samples only to pixels that a stopped call
-     * left with fewer. */
+     * samples get at most this number. If sample_count is then 0, samples are added only to pixels that a stopped call
+     * left with fewer than others. */
     uint32_t sample_count;
     /** NULL, or a function that pt_accumulate calls after every submission to a device. NULL for pt_start.
      *
@@ -386,9 +386,9 @@ enum {
 /** Receives one UTF-8 line without its line break. line is valid during the call. level is a PT_LOG_*. */
 typedef void (*pt_log_fn)(void *user, int32_t level, const char *line);
 
-/** Reads bytes that pt_store_kernels_fn has stored under a key, perhaps in another process. Returns their number, 0 if
- * there are none, and writes them to data if size_bytes suffices. The first call has NULL and 0. The library ignores
- * bytes that are damaged or come from another driver or version. */
+/** Reads bytes that pt_store_kernels_fn has stored under a key. Returns their number, 0 if there are none, and writes
+ * them to data if size_bytes suffices. The first call only asks for the number: data is NULL, size_bytes 0. The library
+ * ignores bytes that are damaged or come from another driver or version. */
 typedef uint64_t (*pt_load_kernels_fn)(void *user, const char *key, void *data, uint64_t size_bytes);
 
 /** Stores a driver's compiled kernels under a key, in place of earlier ones. Storing may fail. key has 32 hexadecimal
@@ -399,8 +399,8 @@ typedef void (*pt_store_kernels_fn)(void *user, const char *key, const void *dat
 /** Bits of pt_create_info.flags. */
 enum {
     PT_CREATE_VALIDATION = 1, /**< the Khronos validation layer reports to log; absent: PT_ERROR_UNSUPPORTED */
-    /** build no kernels that have a scene's numbers as constants. These kernels are up to 1.5 times as fast on CPUs,
-     * but every scene and camera needs new ones. By default, scenes that are rendered for some time get them. */
+    /** build no kernels that have a scene's numbers as constants. By default, scenes that are rendered for some time
+     * get such kernels, which are faster on CPUs. */
     PT_CREATE_NO_SCENE_KERNELS = 2
 };
 
@@ -435,8 +435,8 @@ PT_API const char *pt_result_name(pt_result result);
 /** Makes a context. If info is NULL, all arguments have their defaults.
  *
  * On success the caller owns the context and frees it by pt_destroy. On failure *context is NULL. Any thread.
- * PT_ERROR_NO_DEVICE: there is no Vulkan, or no suitable device. PT_ERROR_UNSUPPORTED: there is no validation layer.
- * PT_ERROR_SHADER: a file of pt_create_info.shader_dir does not compile. */
+ * PT_ERROR_NO_DEVICE: there is no Vulkan, or no suitable device. PT_ERROR_SHADER: a file of pt_create_info.shader_dir
+ * does not compile. */
 PT_API pt_result pt_create(const pt_create_info *info, pt_context **context);
 
 /** Message of the last failed call on this context, or "". The message is valid until the next call on the context.
@@ -469,7 +469,7 @@ PT_API pt_result pt_set_camera(pt_context *context, const pt_camera *camera);
 /** Copies render settings into the context and discards the samples.
  *
  * Allocates 112 bytes a pixel on the device. One thread at a time. PT_ERROR_UNSUPPORTED: the device has no buffers of
- * that size. Render fewer rows at a time in this case, and also after PT_ERROR_OUT_OF_DEVICE_MEMORY. */
+ * that size. In this case, and after PT_ERROR_OUT_OF_DEVICE_MEMORY, render fewer rows at a time. */
 PT_API pt_result pt_set_render(pt_context *context, const pt_render *render);
 
 /** Builds the kernels for the present scene, camera and render settings ahead of pt_accumulate.
@@ -494,8 +494,7 @@ PT_API pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *in
 /** Writes a quantity of all pixels or of a rectangle.
  *
  * After a failure the contents of image->data are undefined. One thread at a time. PT_ERROR_INVALID_STATE: there is no
- * sample. First hits need no sample and fail as pt_prepare does. PT_ERROR_INVALID_ARGUMENT: coverage is read without
- * PT_RENDER_COVERAGE. */
+ * sample. First hits need no sample and fail as pt_prepare does. */
 PT_API pt_result pt_readback(pt_context *context, const pt_image *image);
 
 #ifdef __cplusplus

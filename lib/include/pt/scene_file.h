@@ -18,7 +18,7 @@ extern "C" {
 /** A scene file in memory. */
 typedef struct pt_scene_file pt_scene_file;
 
-/** A value that replaces one of the file. */
+/** A value that replaces a value of the file. */
 typedef struct pt_scene_override {
     /** Path and value: "camera.vertical_fov=30", "spheres[0].center=[0, 1, 0]", "film.tonemap=agx". A value that is not
      * JSON is a text. Missing members are added; elements of arrays must exist. */
@@ -78,8 +78,8 @@ PT_API pt_result pt_get_scene_file(const pt_scene_file *file, pt_scene *scene, p
  * string. One thread at a time. */
 PT_API const char *pt_get_column_path(const pt_scene_file *file, uint32_t index);
 
-/** Finds the value that broke a rule of pt_set_scene, pt_set_camera, pt_set_render or pt_accumulate (pt/errors.h).
- * Parses the file again. One thread at a time. */
+/** Finds the value that broke a rule of pt_set_scene, pt_set_camera, pt_set_render or pt_accumulate (pt/errors.h). One
+ * thread at a time. */
 PT_API pt_result pt_find_rule_source(pt_scene_file *file, const pt_broken_rule *rule, pt_rule_source *source);
 
 /** Returns the JSON Schema (draft 7) of scene files, for editors. A static string; NULL if there is no memory. Any

@@ -44,8 +44,7 @@ typedef struct pt_stats {
  * two. Small lamps in view are an exception: they raise only the error and its upper bound. */
 enum {
     PT_UNCERTAIN_RMSE = 1, /**< rmse comes from fewer than 4 pixels: rare bright samples, or a small lamp */
-    /** relative_rmse comes from fewer than 4 pixels, or from light that only single samples have found. If that light
-     * is rare, the true error may be sqrt(3) times the stated one. */
+    /** relative_rmse comes from fewer than 4 pixels, or from light that only single samples have found. */
     PT_UNCERTAIN_RELATIVE_RMSE = 2,
     /** more than a tenth of the square of relative_rmse is expected from light that no sample has found, in dark pixels
      * beside very bright ones. */
@@ -88,8 +87,7 @@ PT_API pt_result pt_get_stats(pt_context *context, pt_stats *stats);
 
 /** Estimates the image's error.
  *
- * The first call after new samples takes about as long as reading the image. Without render settings, or with a lost
- * device, the error is unknown. One thread at a time. */
+ * Without render settings, or with a lost device, the error is unknown. One thread at a time. */
 PT_API pt_result pt_get_error_estimate(pt_context *context, pt_error_estimate *error);
 
 #ifdef __cplusplus

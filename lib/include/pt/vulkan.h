@@ -18,14 +18,14 @@ typedef void (*pt_queue_fn)(void *user);
  *
  * - Needed: Instance and device come from the Vulkan loader that this library is linked to (libvulkan.so.1).
  *   VkApplicationInfo.apiVersion of the instance is 1.2 or higher, and the physical device supports Vulkan 1.2.
- *   VK_KHR_portability_subset is enabled if the device has it. No feature is needed. The device was created from one
- *   physical device, not from a group. The queue's family has VK_QUEUE_COMPUTE_BIT.
+ *   VK_KHR_portability_subset is enabled if the device has it. The device was created from one physical device, not
+ *   from a group. The queue's family has VK_QUEUE_COMPUTE_BIT.
  * - Lifetime: All handles must outlive the context, which destroys none of them. The context destroys its own objects
  *   in pt_destroy or earlier, without allocation callbacks.
  * - Threads: The context calls lock_queue and unlock_queue around every vkQueueSubmit, and not around waits or other
  *   callbacks. Without these functions no other thread may use the queue during a call on this context, not even by
  *   vkDeviceWaitIdle.
- * - Order: The context uses only its own buffers and the caller's in pt_readback_to_buffer.
+ * - Memory: The context uses only its own buffers and the caller's in pt_readback_to_buffer.
  * - Time: Earlier work in the queue must not wait for the calling thread. The time of a submission includes the wait
  *   for earlier work, so later submissions get smaller. If a submission has not ended after 10 seconds, the device
  *   counts as lost.
@@ -57,9 +57,9 @@ struct pt_vulkan {
  *   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT.
  * - After: The writes are VK_ACCESS_SHADER_WRITE_BIT in VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT. Without signal_semaphore
  *   the call returns when they are available, also to the host (VK_ACCESS_HOST_READ_BIT). The caller must invalidate
- *   mapped memory that is not coherent. Commands on the device see the writes after a barrier with this source. With
- *   signal_semaphore the call returns once the work is submitted. Commands that wait for the semaphore see the writes
- *   without a barrier, in the stages that wait.
+ *   mapped memory that is not coherent. Commands on the device see the writes after a barrier whose source is this
+ *   access and stage. With signal_semaphore the call returns once the work is submitted. Commands that wait for the
+ *   semaphore see the writes without a barrier, in the stages that wait.
  * - Lifetime: With signal_semaphore, the buffer and both semaphores must live until signal_semaphore has been signalled
  *   and waited for. Meanwhile the context may be used and destroyed; pt_set_render, pt_destroy and the next
  *   pt_readback_to_buffer wait for this call. */

@@ -19,7 +19,7 @@ std::uint64_t peak_bytes() {
 }
 
 std::uint64_t most_bytes() {
-    // The container's limit (cgroup v2). The file has "max" without a limit.
+    // The container's limit (cgroup v2). The file has the word "max" if there is no limit.
     std::uint64_t container = 0;
     if (!(std::ifstream("/sys/fs/cgroup/memory.max") >> container))
         container = std::numeric_limits<std::uint64_t>::max();
