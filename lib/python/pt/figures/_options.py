@@ -144,7 +144,7 @@ class Options:
         None, "S", "drawn length of a vector of length 1. Default: the longest vector has 4 median radii", read=float,
         rule=(lambda scale: 0.0 < scale < math.inf, "> 0 and finite"))
 
-    size: tuple[int, int] | None = _view(None, "WxH", "pixels, including the color bar. Default: as many pixels as 1024x768, in the "
+    size: tuple[int, int] | None = _view(None, "WxH", "pixels of the whole picture. Default: as many pixels as 1024x768, in the "
                                          "shape of the data", read=two("x", int))
     width: str | float | None = _view(None, "LENGTH", "width of the whole picture on paper, instead of a size: 8.5cm, 85mm or 3.35in (in "
                                       "Python also a number of inches). The height follows from the data")
