@@ -124,8 +124,8 @@ bool is_outside(vec3 to_center, float radius, vec3 direction, float rounding)
     return above > nearly || (above > -nearly && dot(to_center, direction) < 0.0);
 }
 
-// sphere_distance() for a ball or capsule. from_side is the vector to the first center from the point that determines
-// the side. A ray inside a capsule hits its last ball.
+// sphere_distance() for a ball or capsule. from_side is the vector to the first center, from the point that decides on
+// which side the ray is. A ray inside a capsule hits its last ball.
 float ball_distance(Ball ball, vec3 to_first, vec3 from_side, vec3 direction, bool leaving, bool inside, float rounding,
                     uint kinds)
 {

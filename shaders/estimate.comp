@@ -25,7 +25,7 @@ const uint TILES = ESTIMATE_WORKGROUP_SIZE / TILE_SIZE;
 struct Findings {
     uvec2 rejected;
     uint unknown;
-    uint lost;      // pixels whose sample counts are not the expected ones
+    uint lost;
 };
 
 const uint SQUARE = 0u;
@@ -52,7 +52,7 @@ shared float means[TILE_SIZE][ESTIMATE_WORKGROUP_SIZE]; // means of one channel
 shared ValueSet column_sets[ESTIMATE_WORKGROUP_SIZE];
 shared Errors errors[ESTIMATE_WORKGROUP_SIZE];
 
-// Number of pixels that an invocation fetches at once, which is faster on GPUs.
+// Pixels that an invocation fetches at once, which is faster on GPUs.
 const uint PIXELS_ASKED_FOR = 4u;
 
 // number is in units of 2^-60.
@@ -218,7 +218,7 @@ void main()
     }
 
     const float offset_square = squared(estimate.relative_offset);
-    float squares[SQUARE_KINDS][TILE_SIZE]; // summed over channels
+    float squares[SQUARE_KINDS][TILE_SIZE];
     [[unroll]] for (uint kind = 0u; kind < SQUARE_KINDS; ++kind)
         [[unroll]] for (uint i = 0u; i < TILE_SIZE; ++i)
             squares[kind][i] = 0.0;

@@ -24,7 +24,6 @@ PT_CONSTANT SCENE_IN_STORAGE = 0;
 PT_CONSTANT SCENE_IN_UNIFORM = 1;
 PT_CONSTANT SCENE_IN_CONSTANTS = 2;
 
-// Bits of the kinds of spheres.
 PT_CONSTANT KIND_BALL = 1;
 PT_CONSTANT KIND_CAPSULE = 2;
 
@@ -40,7 +39,7 @@ PT_CONSTANT KIND_CAPSULE = 2;
 // Blocks of each vertex that a branch leaves:
 //   point on a lamp (2) and choice of the lamp (1, if there are several), unless every lamp has been sampled
 //   direction (2), specular or diffuse lobe (1, with GLOSS), survival of Russian roulette (1, for long paths)
-PT_CONSTANT EVERY_LAMP_LIMIT = 4;    // largest number of lamps that the first vertex samples all
+PT_CONSTANT EVERY_LAMP_LIMIT = 4;    // up to this number of lamps, the first vertex samples all
 PT_CONSTANT SPOT_LIMIT = 8;
 PT_CONSTANT ROULETTE_MIN_LENGTH = 8; // minimum MAX_PATH_LENGTH with Russian roulette
 
@@ -74,8 +73,7 @@ PT_FUNCTION uint path_blocks(uint max_path_length, uint camera_blocks, uint lamp
     return max_path_length < 2 ? of_sample : first + (max_path_length - 2) * vertex_blocks(2, lamp_count);
 }
 
-// Number of blocks of a sample in the point table: first the shared blocks, then the blocks of each branch. In sample
-// i, branch b of B has the points with index B i + b.
+// Number of blocks of a sample in the point table: first the shared blocks, then the blocks of each branch.
 PT_FUNCTION uint row_blocks(uint table_blocks, uint shared_count, uint branches)
 {
     return table_blocks == 0 ? 0 : shared_count + branches * (table_blocks - shared_count);
@@ -182,7 +180,7 @@ PT_CONSTANT TREE_REACH = 0x20000000; // largest absolute coordinate on the grid,
 //   x, y, z    displacement of the middle while the shutter is open (with MOTION)
 // After the groups come the lamp of each slot and the slot of each lamp, four to a word: MATERIAL_INDEX_BITS + number,
 // as the bits of a float.
-PT_CONSTANT LAMP_TREE_TOP_GROUPS = 4; // largest number of groups at the top
+PT_CONSTANT LAMP_TREE_TOP_GROUPS = 4;
 PT_CONSTANT LAMP_TREE_BALL = 64;
 
 PT_FUNCTION uint lamp_tree_group_words(uint motion) { return 5 + 3 * motion; }
@@ -226,7 +224,6 @@ PT_CONSTANT FILM_MIN_ERROR_SAMPLES = 9;
 PT_CONSTANT TILE_SIZE = 8;
 PT_CONSTANT ESTIMATE_WORKGROUP_SIZE = 128; // 16 adjacent tiles; Vulkan guarantees this size
 
-// Squared errors of some tiles, and their spread.
 struct ErrorSquares {
     float sum;          // sum over pixels and channels
     float pixel_shares; // sum over pixels of (pixel's square / `sum`)^2
@@ -237,8 +234,8 @@ struct ErrorSquares {
 struct TileErrors {
     ErrorSquares square;          // (x - r)^2 in film units; x is the mean of a pixel, r its limit
     ErrorSquares relative_square; // (x - r)^2 / (r^2 + offset^2) * relative_scale^2, without pixels of met_once
-    ErrorSquares met_once;        // as relative_square, where only one part's samples hit the light; r: the other part
-    ErrorSquares as_lamps;        // as met_once with r = x
+    ErrorSquares met_once;        // like relative_square, if only one part hits the light; r: the other part's mean
+    ErrorSquares as_lamps;        // like met_once with r = x
     float unseen;                 // expected square of the error from light that no sample hit
     uint met_again;               // number of values that both parts hit (pixel_error.h)
     uint unknown_pixels;          // pixels without samples in a part

@@ -10,7 +10,7 @@ namespace pt::gpu {
 
 PT_CONSTANT uint HALF_INFINITY_BITS = 0x7c00u;
 
-// Rounds a float32 >= 0 to the nearest float16, ties to even. Values from 65520 on become infinity.
+// Rounds a float32 >= 0 to the nearest float16, ties to even.
 PT_FUNCTION uint half_bits(uint float_bits)
 {
     const uint smallest_normal = 0x38800000u; // 2^-14

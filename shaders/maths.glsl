@@ -52,8 +52,7 @@ void sin_cos_turn(float u, out float sine, out float cosine)
     sine = (0.5 - u) * m * (16.0 + z * (-59.8273288 + z * (81.7913450 + z * (-58.5570666 + z * 24.7337946))));
 }
 
-// log2(1 - y) for y in [0, 1), within 18 ulp. For y < 1/4 a polynomial has a relative error of 8e-9. For larger y
-// Vulkan bounds the error of log2 by 2^-21.
+// log2(1 - y) for y in [0, 1), within 18 ulp. For y < 1/4 a polynomial has a relative error of 8e-9.
 float log2_one_minus(float y)
 {
     float tail =
@@ -64,7 +63,7 @@ float log2_one_minus(float y)
 // Below this x, 2^x is replaced by 0, because denormal numbers are slow on CPUs.
 const float EXP2_UNDERFLOW = -100.0;
 
-// 2^x for x <= 0. Vulkan allows 3 + 2 |x| ulp of the result, which is at most 3 ulp of 1.
+// 2^x for x <= 0, within 3 ulp of 1.
 float exp2_negative(float x)
 {
     return x < EXP2_UNDERFLOW ? 0.0 : exp2(x);

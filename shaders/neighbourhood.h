@@ -12,7 +12,6 @@ namespace pt::gpu {
 // The value of a neighbor outside the tile.
 PT_CONSTANT float BELOW_ALL = -1.0f;
 
-// Three values in ascending order.
 struct Sorted {
     float low;
     float middle;
@@ -48,7 +47,7 @@ PT_FUNCTION Sorted with_missing_above(Sorted row)
 }
 
 struct Neighbourhood {
-    float median; // of an even number of values, the lower middle one; 0 for a pixel without neighbors
+    float median; // the lower of two middle values; 0 for a pixel without neighbors
     float largest;
 };
 

@@ -44,8 +44,7 @@ float share_beside_spots(Spots spots, Path path, Vertex first, float time)
     return density > 0.0 ? power_heuristic(arrival_density, density) : 1.0;
 }
 
-// Light reflected at the first vertex. This is most of the picture's light, so several branches leave the vertex, and
-// every lamp is sampled if there are few.
+// Light reflected at the first vertex. This is most of the picture's light, so several branches leave the vertex.
 vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
 {
     const float directions = float(BRANCH_COUNT);

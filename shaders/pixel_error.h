@@ -68,9 +68,10 @@ PT_FUNCTION real around(real mean, ValueSet tile, real median_beside, real large
 //
 // At an edge the surroundings are bright, but at least half of the samples are dark. Let a sample have the value M with
 // probability p, otherwise 0, and let exactly one of N samples have the value M. Then the mean is T = M / N, the
-// squared error about T^2, and the limit M p. If p is uniformly distributed a priori, y = N p has the density y e^-y.
-// The expectation of T^2 / (M^2 p^2 + k^2), with k^2 = known, is the integral of y e^-y / (y^2 + k^2 / T^2). This is
-// ln(T / k) minus about 1. The 1 depends on the prior and is left out; the result then fits the calibration scenes.
+// squared error is about T^2, and the limit is M p. If p is uniformly distributed a priori, y = N p has the density y
+// e^-y. The expectation of T^2 / (M^2 p^2 + k^2), with k^2 = known, is the integral of y e^-y / (y^2 + k^2 / T^2). This
+// is about ln(T / k) - 1. The 1 depends on the prior and is left out, because the result then fits the calibration
+// scenes.
 struct Limit {
     real square;       // limit^2 + offset^2
     real known;        // (mean of the darker part)^2 + offset^2

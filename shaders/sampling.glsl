@@ -25,7 +25,6 @@ vec3 spherical_direction(SphericalAngles angles)
     return vec3(angles.sin_polar * cosine, angles.sin_polar * sine, angles.cos_polar);
 }
 
-// Density 1 / (2 pi) on the hemisphere about a unit vector.
 vec3 uniform_hemisphere_direction(vec3 axis, vec2 u)
 {
     vec3 direction = spherical_direction(uniform_spherical_angles(u));

@@ -15,7 +15,7 @@ layout(set = 0, binding = BINDING_SCENE_STORAGE) readonly buffer SceneStorage { 
 
 const uint SURFACE_COUNT = SPHERE_COUNT + PLANE_COUNT;
 
-// Runs a statement for each index from first to end - 1. Loops of up to UNROLLED trips are unrolled.
+// Runs a statement for each index from first to end - 1.
 #define FOR_EACH(index, first, end, statement)                                                                         \
     if ((end) > (first)) {                                                                                             \
         uint index = (first);                                                                                          \
@@ -173,7 +173,6 @@ Ball ball_of(uint surface, float time)
     return ball_among(SPHERE_COUNT, surface, time);
 }
 
-// Returns the center and radius of the ball around a lamp.
 vec4 bound_of_lamp(uint lamp, float time)
 {
     if (TREE_LAMPS > 0u && lamp >= WALKED_LAMPS)

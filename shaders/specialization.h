@@ -39,13 +39,12 @@ PT_SPECIALIZED(OVERLAP, 15, 0)         // 1: several invocations may add to a pi
 PT_SPECIALIZED(TREE, 22, 0)
 PT_SPECIALIZED(TREE_LAMPS, 23, 0)      // lamps in the tree; they have the last numbers
 PT_SPECIALIZED(TREE_COLORS, 24, 0)     // 1: tree spheres have colors of their own
-PT_SPECIALIZED(TREE_LEVELS, 35, 0)     // largest number of nodes from the root to a sphere
+PT_SPECIALIZED(TREE_LEVELS, 35, 0)     // nodes from the root to the deepest sphere
 PT_SPECIALIZED(TREE_INSIDE, 34, 1)     // 1: paths may be inside a sphere of the tree
 PT_SPECIALIZED(POINT_BLOCKS, 12, 1024)
 PT_SPECIALIZED(WALK_TRIPS, 27, 0)      // iteration limit of a step (tree_path.glsl); 0: each walk runs to its end
 PT_SPECIALIZED(SPOT_COUNT, 28, 0)
-// Numbers of surfaces hidden from the camera. Hidden surfaces are last in the lists of lamps (outside the tree) and of
-// other spheres, and first in the lists of skies and of planes.
+// Numbers of surfaces hidden from the camera. lib/view/kernel_surfaces.h describes their order.
 PT_SPECIALIZED(HIDDEN_LAMPS, 30, 0)
 PT_SPECIALIZED(HIDDEN_SKIES, 31, 0)
 PT_SPECIALIZED(HIDDEN_OTHERS, 32, 0)

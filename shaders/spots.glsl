@@ -1,5 +1,5 @@
 // Spots are small regions that are far brighter than their surroundings (README.md, section 7). A glow is a region of a
-// plane close to a lamp. An image is a lamp's mirror image in a polished surface. lib/view/light_spots.h finds spots.
+// plane close to a lamp. An image is a lamp's mirror image in a polished surface.
 #ifndef SPOTS_GLSL
 #define SPOTS_GLSL
 
@@ -9,7 +9,7 @@
 struct SpotWord {
     uint lamp;
     uint surface;
-    float reflectance; // mean over channels
+    float reflectance;
     float glossiness;  // glossiness of the mirroring surface; negative: a glow
 };
 

@@ -50,7 +50,6 @@ struct LampLight {
 
 const LampLight NO_LAMP_LIGHT = LampLight(NO_SHADOW_RAY, vec3(0.0), 0.0);
 
-// samples is the number of samples of this lamp, directions the number of directions from the vertex.
 LampLight light_of_lamp(vec3 throughput, Vertex vertex, Material material, LampChoice choice, vec2 place,
                         float samples, float directions)
 {
@@ -91,7 +90,7 @@ struct Departure {
     bool carries_light;
     float survival; // random number for Russian roulette
     LampLight lamp;
-    float lamp_choices; // 0: every lamp is sampled
+    float lamp_choices;
 };
 
 // The caller chooses the lamp, because a condition here would be slower on GPUs.
@@ -205,8 +204,8 @@ void leave(inout Path path, Vertex vertex, Material material, LampLight lamp, La
     arrive(path, departure, lamps, ahead(walk.hit), walk.blocked);
 }
 
-// Lamp samples do not find the light of skies and emitting planes. With these, the last direction is sampled like
-// others.
+// Lamp samples do not find the light of skies and emitting planes. In scenes with these, the last direction is sampled
+// like others.
 Material material_to_leave(uint surface, uint vertex_count)
 {
     Material material = material_of(surface);

@@ -13,7 +13,7 @@ const uint TRACED_NUMBER = 2u;
 const uint TRACED_WORDS = 3u; // random numbers in units of 2^-32, and their count
 const uint TRACED_VERTEX = 4u;
 const uint TRACED_THROUGHPUT = 5u;
-const uint TRACED_RADIANCE = 6u; // radiance in film units
+const uint TRACED_RADIANCE = 6u; // in film units
 
 uint trace_piece;
 uint trace_count = 1u;

@@ -66,7 +66,6 @@ Walk leave_last_vertex(inout TreeSample current, out Departure departure, out La
     return walk_onwards(vertex, current.path, departure, time, opacity_number(key, current.path.vertex_count));
 }
 
-// Returns whether the sample ends.
 bool ends_with(inout TreeSample current, Walk walk, Departure departure, Lamps lamps)
 {
     if (!current.has_met) {
