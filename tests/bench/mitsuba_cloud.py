@@ -1,6 +1,6 @@
 """Renders clouds of spheres with Mitsuba for scale.py. Reads lines of JSON, and prints the seconds of each on a line.
 
-    {"count": N}                                        builds the scene
+    {"kind": K, "count": N, "seed": I}                  builds the scene
     {"length": L, "samples": S, "seed": I, "image": F}  renders; writes floats to F, if given
 """
 
@@ -10,8 +10,8 @@ import os
 import sys
 import time
 
+from clouds import COLORS, KINDS, MATERIALS
 from mitsuba_scene import SAMPLERS, MitsubaScene, bsdf
-from sphere_cloud import COLORS, MATERIALS, SphereCloud, surroundings
 
 
 class MitsubaCloud(MitsubaScene):
@@ -19,7 +19,7 @@ class MitsubaCloud(MitsubaScene):
 
     def __init__(self, variant, cloud, size, lengths):
         self.cloud = cloud
-        super().__init__(variant, surroundings(), size, lengths)
+        super().__init__(variant, cloud.surroundings(), size, lengths)
 
     def describe(self, scene):
         np, mi, shapes = self.np, self.mi, {}
@@ -49,7 +49,7 @@ def main():
     for line in sys.stdin:
         asked = json.loads(line)
         if "count" in asked:
-            cloud, start = SphereCloud(asked["count"]), time.perf_counter()
+            cloud, start = KINDS[asked["kind"]](asked["count"], asked["seed"]), time.perf_counter()
             scene = MitsubaCloud(options.variant, cloud, size, lengths)
             answer = {"seconds": time.perf_counter() - start, "version": scene.mi.__version__}
         else:

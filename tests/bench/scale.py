@@ -1,9 +1,9 @@
-"""Measures the cost of scenes with 10 to a million spheres over a floor: a cloud with one lamp, or a cloud of lamps.
+"""Measures the cost of scenes with 10 to a million spheres: clouds with one lamp and of other kinds, or clouds of lamps.
 
     DRJIT_LIBLLVM_PATH=libLLVM.so.19.1 python3 tests/bench/scale.py --library old=OLD/libpt.so \\
         --library pt=build/lib/libpt.so --mitsuba mitsuba/bin/python --counts 10,1e3,1e5
 
---cloud lamps has lamps whose brightness spans four powers of ten, with eight balls below each lamp. --cloud dark-lamps has
+--clouds all draws clouds of eight kinds, with --seeds several of each kind. --clouds lamps has lamps whose brightness spans four powers of ten, with eight balls below each lamp. --clouds dark-lamps has
 balls in place of the lamps, so the difference is the cost of choosing lamps. benchmark.py describes Mitsuba. Figures are
 medians.
 
@@ -15,11 +15,13 @@ M/s, M/CPU s    million samples per wall and per CPU second (not on a GPU)
 --error-samples adds costs at equal error, at the first path length. The error is the relMSE (README.md) at this many
 samples, or 4 times as many in Mitsuba. The reference is the first library's picture with 64 times as many samples. The
 ratio is cost x relMSE, divided by the first library's. "off by" is the difference between the means of the picture and
-the reference, relative and in standard errors.
+the reference, relative and in standard errors. A second table has the geometric means of ratios over the clouds of a
+kind, with the standard error and the largest ratio. Pictures with other means are left out.
 """
 
 import argparse
 import array
+import itertools
 import json
 import math
 import os
@@ -32,8 +34,7 @@ import time
 
 os.environ.update(MESA_SHADER_CACHE_DISABLE="true", __GL_SHADER_DISK_CACHE="0")
 
-from lamp_cloud import LampCloud
-from sphere_cloud import SphereCloud
+from clouds import CLOUDS, KINDS, SEED
 from table import print_table
 
 FOLDER = os.path.dirname(os.path.abspath(__file__))
@@ -41,7 +42,6 @@ sys.path.insert(0, os.path.join(os.path.dirname(FOLDER), "support"))
 from scene_renderer import SceneRenderer, color, structs, vector
 from pt import DeviceKind
 
-CLOUDS = {"spheres": SphereCloud, "lamps": LampCloud, "dark-lamps": lambda count: LampCloud(count, shining=False)}
 FLOAT32, UINT32 = 1, 3
 MOST_SAMPLES = 1 << 14
 MITSUBA_FACTOR = 4
@@ -55,7 +55,8 @@ def parse_arguments():
     parser.add_argument("--mitsuba", metavar="PYTHON", help="interpreter that can import Mitsuba (default: without it)")
     parser.add_argument("--mitsuba-counts", type=float, default=1e5, metavar="N", help="up to N spheres (default: 1e5)")
     parser.add_argument("--variant", default="llvm_ad_rgb", help="of Mitsuba (default: llvm_ad_rgb)")
-    parser.add_argument("--cloud", choices=CLOUDS, default="spheres")
+    parser.add_argument("--clouds", default="spheres", metavar="KIND,...", help=f"all, or some of {', '.join(CLOUDS)}")
+    parser.add_argument("--seeds", type=int, default=1, metavar="N", help="clouds of a kind and count (default: 1)")
     parser.add_argument("--counts", default="10,30,100,1e3,1e4,1e5,1e6", metavar="N,...", help="of spheres")
     parser.add_argument("--path-lengths", default="3,6", metavar="L,...")
     parser.add_argument("--size", default="256x128", metavar="WxH", help="default: 256x128")
@@ -65,8 +66,11 @@ def parse_arguments():
     parser.add_argument("--error-counts", type=float, default=1e5, metavar="N", help="up to N spheres (default: 1e5)")
     parser.add_argument("--json", metavar="FILE", help="write all figures")
     options = parser.parse_args()
-    if options.mitsuba and options.cloud != "spheres":
-        parser.error("--mitsuba: takes clouds of spheres alone")
+    options.clouds = list(KINDS) if options.clouds == "all" else options.clouds.split(",")
+    if unknown := set(options.clouds) - set(CLOUDS):
+        parser.error(f"--clouds: there is no {min(unknown)}")
+    if options.mitsuba and set(options.clouds) - set(KINDS):
+        parser.error("--mitsuba: takes no clouds of lamps")
     options.counts = [int(float(count)) for count in options.counts.split(",")]
     options.lengths = [int(length) for length in options.path_lengths.split(",")]
     options.width, options.height = map(int, options.size.split("x"))
@@ -127,14 +131,14 @@ class Library:
 class Mitsuba:
     name, bytes, on_cpu = "Mitsuba", None, True
 
-    def __init__(self, cloud, options):
+    def __init__(self, kind, count, seed, options):
         self.options = options
         self.on_cpu = not options.variant.startswith("cuda")
         self.process = subprocess.Popen(
             [options.mitsuba, "-B", os.path.join(FOLDER, "mitsuba_cloud.py"), "--variant", options.variant, "--size",
              options.size, "--path-lengths", options.path_lengths],
             stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
-        answer = self.ask(count=cloud.count)
+        answer = self.ask(kind=kind, count=count, seed=seed)
         self.scene_seconds, self.device = answer["seconds"], "Mitsuba " + answer["version"]
         self.first_seconds = self.scene_seconds + self.render(options.lengths[0], 1)[0]
 
@@ -213,21 +217,21 @@ def measure_errors(programs, options):
     return figures
 
 
-def measure_count(count, options, report):
-    cloud = CLOUDS[options.cloud](count)
+def measure_cloud(kind, count, seed, options, report):
+    cloud = CLOUDS[kind](count, seed)
     programs = [Library(*library.split("=", 1), cloud, options) for library in options.library]
     report["devices"] = list(dict.fromkeys(program.device for program in programs))
     try:
         if options.mitsuba and count <= options.mitsuba_counts:
-            programs.append(Mitsuba(cloud, options))
+            programs.append(Mitsuba(kind, count, seed, options))
         rates = measure_rates(programs, options)
         for program in programs:
             report["costs"].append({
-                "count": count, "program": program.name, "scene": program.scene_seconds, "bytes": program.bytes,
+                "cloud": kind, "count": count, "program": program.name, "scene": program.scene_seconds, "bytes": program.bytes,
                 "first": program.first_seconds, "on_cpu": program.on_cpu,
                 "rates": {length: rates[program.name, length] for length in options.lengths}})
         if options.error_samples and count <= options.error_counts:
-            report["errors"] += [{"count": count, "program": name, **figures}
+            report["errors"] += [{"cloud": kind, "count": count, "program": name, **figures}
                                  for name, figures in measure_errors(programs, options).items()]
     finally:
         for program in programs:
@@ -235,12 +239,12 @@ def measure_count(count, options, report):
 
 
 def print_costs(costs, options):
-    heading = ["spheres", "", "scene", "bytes", "first"]
+    heading = ["cloud", "spheres", "", "scene", "bytes", "first"]
     for length in options.lengths:
         heading += [f"L {length}: M/s", f"L {length}: M/CPU s"]
     rows = [heading]
     for cost in costs:
-        row = [f"{cost['count']:,}", cost["program"], f"{cost['scene']:.2g}",
+        row = [cost["cloud"], f"{cost['count']:,}", cost["program"], f"{cost['scene']:.2g}",
                "-" if cost["bytes"] is None else f"{cost['bytes']:.0f}", f"{cost['first']:.2f}"]
         for wall, cpu in cost["rates"].values():
             row += [f"{wall / 1e6:.3g}", f"{cpu / 1e6:.3g}" if cost["on_cpu"] else "-"]
@@ -249,26 +253,48 @@ def print_costs(costs, options):
 
 
 def print_errors(errors, options):
-    rows = [["spheres", "", "samples", "cost, s", "relMSE", "cost x relMSE", "off by"]]
+    rows = [["cloud", "spheres", "", "samples", "cost, s", "relMSE", "cost x relMSE", "off by"]]
     for error in errors:
         off, deviations = error["off_by"]
-        rows.append([f"{error['count']:,}", error["program"], str(error["samples"]), f"{error['cost']:.2f}",
+        rows.append([error["cloud"], f"{error['count']:,}", error["program"], str(error["samples"]), f"{error['cost']:.2f}",
                      f"{error['rel_mse']:.2g}", f"{error['ratio']:.2f}" if abs(off) < ALIKE else "-",
                      f"{off:+.2%} ({deviations:+.1f})"])
     print(f"\nat path length {options.lengths[0]}\n")
     print_table(rows)
 
 
+def mean_ratios(errors):
+    """Maps kinds and programs to the geometric mean, its standard error as a factor, the largest, and the number."""
+    ratios = {}
+    for error in errors:
+        if abs(error["off_by"][0]) < ALIKE:
+            ratios.setdefault((error["cloud"], error["program"]), []).append(math.log(error["ratio"]))
+            ratios.setdefault(("all", error["program"]), []).append(math.log(error["ratio"]))
+    return {key: (math.exp(statistics.fmean(logs)), math.exp(statistics.stdev(logs) / math.sqrt(len(logs))),
+                  math.exp(max(logs)), len(logs)) for key, logs in ratios.items() if len(logs) > 1}
+
+
+def print_means(errors, first):
+    rows = [["cloud", "", "mean ratio", "standard error", "largest", "clouds"]]
+    for (kind, name), (mean, error, largest, count) in mean_ratios(errors).items():
+        if name != first:
+            rows.append([kind, name, f"{mean:.3f}", f"{error - 1:.1%}", f"{largest:.2f}", str(count)])
+    if len(rows) > 1:
+        print()
+        print_table(rows)
+
+
 def main():
     options = parse_arguments()
     report = {"size": options.size, "rounds": options.rounds, "costs": [], "errors": []}
-    for count in options.counts:
-        print(f"{count:,} {options.cloud}", file=sys.stderr, flush=True)
-        measure_count(count, options, report)
+    for kind, count, seed in itertools.product(options.clouds, options.counts, range(SEED, SEED + options.seeds)):
+        print(f"{count:,} {kind}, seed {seed}", file=sys.stderr, flush=True)
+        measure_cloud(kind, count, seed, options, report)
     print(f"{', '.join(report['devices'])}, {options.size}, medians of {options.rounds} rounds\n")
     print_costs(report["costs"], options)
     if report["errors"]:
         print_errors(report["errors"], options)
+        print_means(report["errors"], options.library[0].split("=")[0])
     if options.json:
         with open(options.json, "w", encoding="utf-8") as file:
             json.dump(report, file, indent=1)
