@@ -94,6 +94,7 @@ class Marks(unittest.TestCase):
 
     def test_what_is_refused(self):
         for words, options in (("labels has shape .2,.: must be .3,.", {"labels": ["a", "b"]}), ("distances: 3: must be an index", {"distances": [(0, 3)]}),
+                               ("distances = '0-1': must be pairs", {"distances": "0-1"}),
                                ("labels = 'm 2': position 1, 'm'", {"labels": "m 2=n"})):
             with self.subTest(words=words), self.assertRaisesRegex(ValueError, words):
                 prepare(Particles(ROW, {"n": np.arange(3)}), Options(radius=1.0, **options))

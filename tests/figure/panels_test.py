@@ -59,7 +59,7 @@ class Panels(unittest.TestCase):
         self.assertEqual(found.legend.names, ("a", "b", "c"))
 
     def test_what_is_refused(self):
-        with self.assertRaisesRegex(ValueError, "panels: columns need one data set"):
+        with self.assertRaisesRegex(ValueError, "panels: must have one data set with columns"):
             self.panels(particles(1), particles(1), columns=["v"])
         with self.assertRaisesRegex(ValueError, "has no room for particles"):
             self.panels(particles(1), particles(1), size=(30, 30))

@@ -46,7 +46,9 @@ class Marks:
         rows = np.flatnonzero((words != "") & (True if shown is None else shown))
         if len(rows) > MOST_WORDS:
             raise ValueError(f"labels: has {len(rows):,} words: must have at most {MOST_WORDS:,}")
-        pairs = np.asarray([] if distances is None else distances, np.intp).reshape(-1, 2)
+        pairs = np.zeros((0, 2), np.intp) if distances is None else np.asarray(distances)
+        if pairs.ndim != 2 or pairs.shape[1] != 2 or pairs.dtype.kind not in "iu":
+            raise ValueError(f"distances = {distances!r}: must be pairs of indices, shape (k, 2)")
         if len(bad := pairs[(pairs < 0) | (pairs >= len(particles))]):
             raise ValueError(f"distances: {bad[0]}: must be an index of a particle, from 0 to {len(particles) - 1}")
         ends = particles.positions[pairs].astype(np.float64)

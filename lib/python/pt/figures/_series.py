@@ -71,8 +71,8 @@ def panels(data: Sequence[Any], columns: Sequence[str] = (), **options: Any) -> 
 
 
 def sources_of(data: Sequence[Any], columns: Sequence[str], options: Options) -> list[tuple[Particles, str | None, str]]:
-    if columns and len(data) > 1:
-        raise ValueError("panels: columns need one data set, or several data sets no columns")
+    if not data or columns and len(data) > 1:
+        raise ValueError("panels: must have one data set with columns, or several data sets without")
     loaded = [load(each, frame=options.frame, model_number=options.model_number, **options.reading) for each in data]
     if columns:
         return [(loaded[0], column, column) for column in columns]
