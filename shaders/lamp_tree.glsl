@@ -10,7 +10,7 @@ const bool HAS_LAMP_TREE = LAMP_TREE_LEVELS > 0u;
 struct Siblings {
     vec4 x, y, z;
     vec4 power;  // 0: no node
-    vec4 spread; // radius in the case of a lamp
+    vec4 spread; // radius for a lamp
 };
 
 Siblings siblings_of(uint group, Vertex vertex, float time)
@@ -30,7 +30,8 @@ Siblings siblings_of(uint group, Vertex vertex, float time)
 
 // Probabilities are `precise`, because walk_by() and walk_to() must compute the same bits for a lamp.
 
-// The importance of shaders/README.md, section 6. Below the horizon a quotient avoids cancellation and is never 0.
+// The importance of shaders/README.md, section 6. Below the horizon the quotient `below` avoids cancellation and is
+// never 0.
 vec4 node_importance(Siblings nodes, vec3 normal)
 {
     precise vec4 height = nodes.x * normal.x + nodes.y * normal.y + nodes.z * normal.z;

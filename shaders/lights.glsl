@@ -17,7 +17,7 @@ struct Lamps {
     float total_weight;
     float in_sight;        // number of lamps with positive weight
     float share_of_weight;
-    float uniform_share; // probability of each lamp in sight, in uniform choices
+    float uniform_share; // probability of each lamp in sight if the choice is uniform
     LampTreeTop tree;
 };
 

@@ -21,7 +21,7 @@ PT_SPECIALIZED(GLOSS, 5, 1)
 PT_SPECIALIZED(MOTION, 6, 1)
 PT_SPECIALIZED(SCENE_SOURCE, 7, SCENE_IN_UNIFORM)
 PT_SPECIALIZED(SAMPLER, 8, SAMPLER_RANDOM)
-PT_SPECIALIZED(TABLE_BLOCKS, 9, 0)  // in the point table: shared blocks plus the blocks of one branch
+PT_SPECIALIZED(TABLE_BLOCKS, 9, 0)  // blocks of the point table: shared ones and the blocks of one branch
 PT_SPECIALIZED(BRANCH_COUNT, 10, 1) // branches at a path's first vertex
 PT_SPECIALIZED(CURVATURE, 11, 0)
 PT_SPECIALIZED(INSIDE, 13, 1)       // 1: paths may be inside a sphere

@@ -88,7 +88,7 @@ struct Walk {
     vec3 path_inverse;
     vec3 shadow_inverse;
     bool follows_path;
-    bool seeks_light; // the ray finds only emission, so without lamps in the tree any tree sphere ends it
+    bool seeks_light; // only emission counts at the hit, so without lamps in the tree any tree sphere ends the ray
     bool in_shadow;
     uint node;
     uint first_place; // slot of the last node's first child sphere

@@ -51,7 +51,7 @@ public:
 
     std::uint64_t rejected_samples() const;
 
-    // Throws PT_ERROR_INCOMPATIBLE if pixels of one tile of the grid over the bounds have different samples.
+    // Throws PT_ERROR_INCOMPATIBLE if pixels of one tile of the grid have different samples.
     TileSamples samples_by_tile() const;
 
     // Returns how many samples per pixel are enough for all small lamps in view; 0 without such lamps.

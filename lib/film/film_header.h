@@ -66,7 +66,7 @@ inline AdaptiveRound later_of(const AdaptiveRound &a, const AdaptiveRound &b) {
 struct LampSquare {
     std::uint32_t x;
     std::uint32_t y;
-    std::uint32_t samples; // samples per pixel that hit the smallest lamp
+    std::uint32_t samples; // samples per pixel, enough to hit the smallest lamp
 
     bool operator==(const LampSquare &) const = default;
 };

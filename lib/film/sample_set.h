@@ -68,8 +68,8 @@ std::uint64_t split_of(const SampleRange &hull);
 
 PartCounts part_counts(const SampleSet &samples);
 
-// Whether the sample is the first of its part. `before` is the hull of the earlier samples. `split` is split_of() the
-// hull of these samples and this one.
+// Whether the sample is the first of its part. `before` is the hull of the earlier samples. `split` is split_of() for
+// the hull of these samples and this one.
 bool begins_part(const SampleRange &before, std::uint64_t split, std::uint64_t sample);
 
 } // namespace pt

@@ -64,7 +64,7 @@ struct TileErrors {
     double unseen = 0.0;
     std::uint64_t rejected = 0;
 
-    // The relative squares, estimated without use of other tiles.
+    // The squared relative errors, estimated from this tile alone.
     double own_square() const { return relative_square.sum + as_lamps.sum + unseen; }
 };
 

@@ -22,7 +22,7 @@ public:
     // Opens only regular files, because a named pipe may wait for its writer, and a device may be endless.
     explicit InputFile(const std::filesystem::path &path);
 
-    // Reads standard input, of any kind.
+    // Reads standard input, which may be a pipe.
     InputFile() = default;
 
     // 0 for standard input.

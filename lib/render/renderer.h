@@ -174,7 +174,7 @@ private:
     std::optional<PreparedScene> scene_;
     std::optional<Camera> camera_;
     std::optional<RenderSettings> settings_; // if set, the devices have films
-    std::shared_ptr<const View> view_;       // NULL after a change
+    std::shared_ptr<const View> view_;       // NULL after a change of scene, camera or settings
     TileSamples samples_;
     AdaptiveRound round_;
     std::optional<ErrorEstimate> error_;

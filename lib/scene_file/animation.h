@@ -31,7 +31,7 @@ struct AnimatedValue {
 AnimatedValue read_animated_value(const JsonPlace &place, const nlohmann::json &value);
 
 // Frame n lasts from time n to n + 1. Shutter times are fractions of a frame. Spheres move straight during a frame. All
-// else has its value at the middle of the shutter's time.
+// other values are taken at the middle of the shutter's time.
 std::vector<SceneOverride> overrides_of_frame(const SceneFile &scene, std::uint32_t frame);
 
 // Returns the file with the values of a frame; the file's own overrides are applied afterwards. Adds the frame's number

@@ -57,7 +57,7 @@ struct JsonRefusal : std::runtime_error {
         cause(std::move(place)) {}
 
     JsonPath path;
-    JsonPath cause; // the value or unknown key whose line the message has
+    JsonPath cause; // the value or unknown key whose line is in the message
 };
 
 [[noreturn]] inline void refuse(const JsonPlace &place, const std::string &rule) {

@@ -22,7 +22,7 @@ constexpr std::array<std::array<std::string_view, 2>, 6> renamed{{{"camera.targe
                                                                   {"render.height", "film.height"},
                                                                   {"accumulate.sample_count", "render.spp"}}};
 
-// Single spheres and capsules may also be arrays. These come before items of many spheres.
+// Single spheres and capsules may also form arrays. These come before items of many spheres.
 JsonPath path_in_arrays(const SceneFile &scene, const BrokenRule &rule) {
     const std::size_t of_spheres = scene.sphere_items.items.empty() ? 0 : 1;
     const std::size_t of_single = of_spheres + (scene.capsules.items.empty() ? 0 : 1);

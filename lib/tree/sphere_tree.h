@@ -133,7 +133,7 @@ private:
     Grid grid_;
     bool moves_;
     Kinds kinds_;
-    std::vector<LookColumn> looks_; // those that some sphere has
+    std::vector<LookColumn> looks_; // columns that some sphere has
     bool has_opacities_;
     std::uint32_t scene_sphere_count_;
     std::vector<std::uint32_t> left_out_; // scene indices

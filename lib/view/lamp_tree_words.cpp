@@ -37,7 +37,7 @@ Ball ball_of(const MovingBall &ball) {
     return {glm::vec3(ball.open), glm::vec3(ball.way), static_cast<float>(ball.radius)};
 }
 
-// Divides powers by the largest power. If the lamps' extent is above 1, multiplies them by the extent. The kernel's
+// Divides powers by the largest power. If the lamps' extent is above 1, multiplies powers by the extent. The kernel's
 // quotients of power and squared distance are then between 1e-17 and 1e17.
 std::vector<ScaledLamp> scaled_lamps(std::span<const TreeLamp> lamps) {
     double largest_power = 0.0;

@@ -9,7 +9,7 @@ namespace pt {
 struct DistinctScene {
     SeenScene seen;
     bool close_lamps;
-    bool close_planes; // two planes differ by less than two_planes
+    bool close_planes; // two planes nearly coincide
 };
 
 DistinctScene without_twins(SeenScene seen);

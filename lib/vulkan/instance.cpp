@@ -105,7 +105,7 @@ vk::raii::Instance create_instance(const vk::raii::Context &context,
 }
 
 // The loader unloads drivers with the last instance. NVIDIA's driver (580.159) leaks static thread-local storage at
-// each load, so after some loads it cannot be loaded.
+// each load, so some later load fails.
 void keep_nvidia_driver_loaded() noexcept {
     for (const char *name : {"libGLX_nvidia.so.0", "libEGL_nvidia.so.0"})
         platform::keep_loaded(name);

@@ -16,8 +16,8 @@ extern "C" {
  * message of pt_last_error. */
 typedef struct pt_broken_rule {
     uint32_t struct_size; /**< sizeof(pt_broken_rule) */
-    int32_t component;    /**< element of member, if member is an array or a pt_column; otherwise -1 */
-    int64_t index;        /**< element of subject, if subject is an array of structs; otherwise -1 */
+    int32_t component;    /**< index in member, if member is an array or a pt_column; otherwise -1 */
+    int64_t index;        /**< index in subject, if subject is an array of structs; otherwise -1 */
     /** The name of an array of pt_scene ("materials", "spheres", "planes" or "sphere_arrays"), of a struct ("scene",
      * "camera", "render", "accumulate", "image", "stats", "create", "vulkan" or "denoise") or of another argument. */
     const char *subject;

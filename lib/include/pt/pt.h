@@ -128,7 +128,7 @@ typedef struct pt_sphere {
     uint32_t reserved; /**< 0 */
 } pt_sphere;
 
-/** Values of pt_column.type: what a component is. */
+/** Values of pt_column.type: the type of a component. */
 enum {
     PT_TYPE_FLOAT32 = 1, /**< float */
     PT_TYPE_FLOAT64 = 2, /**< double */
