@@ -63,7 +63,7 @@ float log2_one_minus(float y)
 // Below this x, 2^x is replaced by 0, because denormal numbers are slow on CPUs.
 const float EXP2_UNDERFLOW = -100.0;
 
-// 2^x for x <= 0, within 3 ulp of 1.
+// 2^x for x <= 0, within 3 * 2^-23.
 float exp2_negative(float x)
 {
     return x < EXP2_UNDERFLOW ? 0.0 : exp2(x);

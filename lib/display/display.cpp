@@ -53,7 +53,7 @@ void check_numbers(const Subject &subject, const pt_display_info &info) {
         });
 }
 
-// Without a white point all channels have one factor, which is not rounded by the formula of the white point.
+// Without a white point all channels have exactly the same factor.
 Color scale_of(const pt_display_info &info) {
     const double brightness = std::exp2(
         info.automatic_exposure != 0 ? automatic_exposure({info.radiance, 3 * info.pixel_count}) : info.exposure);

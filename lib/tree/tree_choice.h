@@ -25,7 +25,8 @@ struct TreeChoice {
     // Hidden spheres, distant ones and, if there are few, capsules. Indices are ascending.
     std::vector<std::uint32_t> left_out{};
     std::size_t hidden_count = 0;
-    SphereExtent extent{}; // of tree spheres; `moves` includes other spheres, because kernels read all motions or none
+    // The extent of tree spheres. `moves` includes other spheres, because kernels read all motions or none.
+    SphereExtent extent{};
     std::vector<bool> used_materials{};
 };
 

@@ -51,7 +51,7 @@ bool has_known_side(const CurvedPlane &plane) {
     return static_cast<float>(plane.offset) != 0.0F;
 }
 
-// These counts take the least time to equal error. Empirical.
+// These counts need the least time for a given error. Empirical.
 std::uint32_t branches_among(std::size_t sphere_count, std::uint32_t max_path_length) {
     constexpr std::size_t very_many = 4096;
     if (sphere_count >= very_many && max_path_length > 3)

@@ -25,8 +25,8 @@ struct LampPiece {
     double enough_samples(bool is_random) const;
 };
 
-// Returns the lamps in these rows that less than half of a pixel's samples hit, because they are small, move, are out
-// of focus, or are behind translucent spheres. Lamps whose centers are behind opaque surfaces are left out.
+// Returns the lamps in these rows that are hit by less than half of a pixel's samples, because they are small, move,
+// are out of focus, or are behind translucent spheres. Lamps whose centers are behind opaque surfaces are left out.
 std::vector<LampPiece> small_lamps_in_view(const PreparedScene &scene, const Projection &projection,
                                            std::uint32_t first_row, std::uint32_t row_count);
 

@@ -53,7 +53,7 @@ typedef struct pt_film_info {
     uint32_t estimator;       /**< PT_ESTIMATOR_*, never BEST */
     uint32_t sampler;         /**< PT_SAMPLER_*, never BEST */
     uint32_t tile_count;      /**< number of tiles; 1 if all pixels have the same samples */
-    /** Number of samples of a pixel that are enough to hit lamps in view smaller than a pixel. A target error is
+    /** Number of samples of a pixel, enough to hit lamps in view that are smaller than a pixel. A target error is
      * reached only when every pixel has this number. 0: there are no such lamps. */
     uint32_t lamp_sample_count;
     const char *device; /**< devices and drivers that took the samples; ASCII, owned by the film */

@@ -49,10 +49,10 @@ enum {
     /** more than a tenth of the square of relative_rmse is expected from light that no sample has found, in dark pixels
      * beside very bright ones. */
     PT_UNCERTAIN_UNSEEN = 4,
-    /** samples may have missed lamps, for one of two reasons.
-     * - Less than half of a pixel's samples hit lamps in view that are small, move, are out of focus or shine through
-     *   translucent spheres. Fewer than 6 samples are expected to have hit them, and the error computed from their
-     *   sizes is larger than the samples show.
+    /** samples may have missed lamps in one of two ways.
+     * - Lamps in view are hit by less than half of a pixel's samples, because the lamps are small, move, are out of
+     *   focus or shine through translucent spheres. Fewer than 6 samples are expected to have hit them, and the error
+     *   computed from their sizes is larger than the samples show.
      * - Lamps (uniform, cosine, bsdf) or lobes (uniform, cosine) are found by chance, and fewer than a thousand samples
      *   of all pixels have hit an important lamp or lobe. */
     PT_UNCERTAIN_UNMET = 8
