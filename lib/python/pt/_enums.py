@@ -151,7 +151,7 @@ class Uncertain(enum.IntFlag):
     RMSE = 1  # rmse comes from fewer than 4 pixels
     RELATIVE_RMSE = 2
     UNSEEN = 4
-    UNMET = 8  # samples may have missed lamps, for one of two reasons
+    UNMET = 8  # samples may have missed lamps in one of two ways
 
 
 class SceneFileFlag(enum.IntFlag):
