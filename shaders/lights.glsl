@@ -33,7 +33,7 @@ Lamps lamps_from(Vertex vertex, float time)
     lamps.total_weight = 0.0;
     lamps.in_sight = 0.0;
     uint lamp = 0u;
-    do {
+    [[unroll]] do {
         LampView view = view_lamp(vertex, lamp, time);
         lamps.total_weight += view.weight;
         lamps.in_sight += view.weight > 0.0 ? 1.0 : 0.0;
@@ -113,7 +113,7 @@ LampChoice choose(Lamps lamps, uint number)
     uint chosen = 0u;
     float cumulated = 0.0;
     uint lamp = 0u;
-    do {
+    [[unroll]] do {
         float weight = KEEP_VIEWS ? lamps.views[lamp].weight : view_lamp(lamps.vertex, lamp, lamps.time).weight;
         chosen = cumulated <= target && weight > 0.0 ? lamp : chosen;
         cumulated += uniformly ? (weight > 0.0 ? 1.0 : 0.0) : weight;
