@@ -96,7 +96,7 @@ static void *render_thread(void *user) {
     return NULL;
 }
 
-/* Waits for the thread. After `seconds`, asks it to stop as soon as an image was shown. 0: never. */
+/* Waits for the thread. After `seconds`, unless 0, asks it to stop as soon as an image was shown. */
 static void watch(render_job *job, double seconds) {
     const struct timespec pause = {0, 20000000};
     double waited = 0.0; /* a little less than the true time */

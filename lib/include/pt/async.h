@@ -42,8 +42,8 @@ PT_API pt_result pt_start(pt_context *context, const pt_accumulate_info *info);
  *
  * One thread at a time. PT_PENDING: samples are still being taken. PT_OK: all samples are taken. PT_TARGET_REACHED:
  * fewer samples were enough. PT_CANCELLED: pt_cancel was called; fewer samples are taken, all of them complete.
- * PT_ERROR_INVALID_STATE: no samples are being taken. In a callback, or during another thread's call, pt_poll returns
- * PT_ERROR_INVALID_STATE without ending the sampling. */
+ * PT_ERROR_INVALID_STATE: no samples are being taken. The same error in a callback, or during another thread's call,
+ * does not end the sampling. */
 PT_API pt_result pt_poll(pt_context *context, uint64_t nanoseconds, double *fraction);
 
 /** Asks the context to stop taking samples, and returns at once.
