@@ -59,9 +59,8 @@ typedef struct pt_rounds_info {
     void *render_user;     /**< argument of render */
 } pt_rounds_info;
 
-/** Calls pt_denoise after each round of rendering. If there is a target error or a time limit, rounds end at 16, 24,
- * 36, ... samples per pixel, each 1.5 times the previous number. The last round is shorter if samples or time end
- * first.
+/** Calls pt_denoise after each round of rendering. If target_error or time_limit is set, rounds end at 16, 24, 36, ...
+ * samples per pixel, each 1.5 times the previous number. The last round is shorter if samples or time end first.
  *
  * Any thread. Returns PT_TARGET_REACHED, PT_CANCELLED if render stops, otherwise PT_OK. */
 PT_API pt_result pt_denoise_rounds(const pt_rounds_info *rounds, const pt_denoise_info *info, pt_error_estimate *error);
