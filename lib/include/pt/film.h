@@ -96,7 +96,7 @@ PT_API pt_result pt_write_film(const pt_film *film, void *data, uint64_t *size_b
  * pt_stream_film. */
 typedef int32_t (*pt_take_bytes_fn)(void *user, const void *data, uint64_t size_bytes);
 
-/** Passes the bytes of pt_write_film to take, in order, in pieces of at most a megabyte. take must not call functions
+/** Calls take with the bytes of pt_write_film, in order, in pieces of at most a megabyte. take must not call functions
  * on this film. One thread at a time. PT_CANCELLED: take ended the call. */
 PT_API pt_result pt_stream_film(const pt_film *film, pt_take_bytes_fn take, void *user);
 
