@@ -30,10 +30,4 @@ TEST(Suggestion, IsSilentAboutStrangers) {
     EXPECT_EQ(pt::nearest_name("radius", {}), "");
 }
 
-TEST(Suggestion, Message) {
-    EXPECT_EQ(pt::unknown_name("key", "raduis", known), "unknown key \"raduis\", did you mean \"radius\"?");
-    EXPECT_EQ(pt::unknown_name("key", "x", known), "unknown key \"x\", known: center, radius, material, motion");
-    EXPECT_EQ(pt::unknown_name("material", "x", {}), "unknown material \"x\"");
-}
-
 } // namespace

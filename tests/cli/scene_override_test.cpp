@@ -131,16 +131,6 @@ TEST(SceneOverride, EveryKeyWithAnOptionIsCheckedInTheFileToo) {
     EXPECT_GT(count, 7);
 }
 
-TEST(SceneOverride, TheLibrarysRulesLeadBackToIt) {
-    const SceneFile scene = changed({"spheres[1].radius=-1"});
-    const cli::BrokenRule of_option{"spheres", 1, "radius", -1, "", "-1", "must be > 0"};
-    const cli::BrokenRule of_file{"spheres", 0, "radius", -1, "", "-1", "must be > 0"};
-    EXPECT_EQ(cli::explain(scene, of_option), "--set spheres[1].radius=-1: spheres[1].radius = -1: must be > 0");
-    EXPECT_EQ(cli::blame(scene, of_option), cli::ExitCode::usage);
-    EXPECT_EQ(cli::explain(scene, of_file), "s.json:3: spheres[0].radius = -1: must be > 0");
-    EXPECT_EQ(cli::blame(scene, of_file), cli::ExitCode::scene);
-}
-
 using cli::parse_scene;
 
 using Numbers = std::vector<double>;
