@@ -53,6 +53,17 @@ inline void require(pt_result result) {
         throw Failure(exit_code_of(result), pt_last_error(nullptr));
 }
 
+// Calls list(elements, &count) for the count, then for the elements.
+template <typename Element, typename Count = std::uint32_t, typename List>
+std::vector<Element> elements_of(const List &list) {
+    Count count = 0;
+    list(static_cast<Element *>(nullptr), &count);
+    std::vector<Element> elements(count);
+    list(elements.data(), &count);
+    elements.resize(count);
+    return elements;
+}
+
 // A pt_progress_fn whose `user` is a std::function<bool(double)>.
 inline std::int32_t call_listener(void *user, double share) {
     return (*static_cast<const std::function<bool(double)> *>(user))(share) ? 0 : 1;

@@ -20,19 +20,6 @@ namespace {
 
 using Row = std::array<std::string, 7>;
 
-std::vector<pt_device_info> list_devices() {
-    std::uint32_t count = 0;
-    std::vector<pt_device_info> devices;
-    pt_result result = pt_get_devices(nullptr, &count);
-    if (result >= 0) {
-        devices.resize(count);
-        result = pt_get_devices(devices.data(), &count);
-        devices.resize(count);
-    }
-    require(result);
-    return devices;
-}
-
 Row table_row(std::size_t index, const pt_device_info &device) {
     return {std::to_string(index),
             kind_name(device.kind),
@@ -88,7 +75,8 @@ int run_devices(const DevicesOptions &options) {
     if (options.has_tree)
         return print_vector_width(options);
     const VectorWidth width({}); // the name of llvmpipe contains the width
-    const std::vector<pt_device_info> devices = list_devices();
+    const std::vector<pt_device_info> devices =
+        elements_of<pt_device_info>([](auto *to, auto *count) { require(pt_get_devices(to, count)); });
     if (options.as_json)
         print_json(devices);
     else

@@ -98,11 +98,8 @@ pt_error_estimate FilmHandle::error_estimate() const {
 }
 
 std::vector<pt_sample_range> FilmHandle::ranges(std::uint32_t tile) const {
-    std::uint32_t count = 0;
-    require(pt_get_film_ranges(film_, tile, nullptr, &count));
-    std::vector<pt_sample_range> ranges(count);
-    require(pt_get_film_ranges(film_, tile, ranges.data(), &count));
-    return ranges;
+    return elements_of<pt_sample_range>(
+        [&](auto *to, auto *count) { require(pt_get_film_ranges(film_, tile, to, count)); });
 }
 
 pt_sample_range FilmHandle::hull() const {
@@ -137,11 +134,8 @@ std::vector<float> FilmHandle::read_image(std::uint32_t quantity) const {
 }
 
 std::vector<std::byte> FilmHandle::bytes() const {
-    std::uint64_t size = 0;
-    require(pt_write_film(film_, nullptr, &size));
-    std::vector<std::byte> bytes(size);
-    require(pt_write_film(film_, bytes.data(), &size));
-    return bytes;
+    return elements_of<std::byte, std::uint64_t>(
+        [&](auto *to, auto *size) { require(pt_write_film(film_, to, size)); });
 }
 
 void save_film(const Context &context, std::vector<std::byte> &bytes) {

@@ -55,11 +55,8 @@ std::string verdict(const SelftestReport &report) {
 }
 
 std::vector<SelftestCheck> check_functions(const Context &context) {
-    std::uint32_t count = 0;
-    context.require(pt_get_accuracy(context.get(), nullptr, &count));
-    std::vector<pt_function_accuracy> rows(count);
-    context.require(pt_get_accuracy(context.get(), rows.data(), &count));
-    rows.resize(count);
+    const auto rows = elements_of<pt_function_accuracy>(
+        [&](auto *to, auto *count) { context.require(pt_get_accuracy(context.get(), to, count)); });
     std::vector<SelftestCheck> checks;
     checks.reserve(rows.size());
     for (const pt_function_accuracy &row : rows) {
