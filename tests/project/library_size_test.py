@@ -5,7 +5,7 @@ import subprocess
 import sys
 import tempfile
 
-MOST = 1_245_000  # bytes
+MOST = 1_240_000  # bytes
 
 with tempfile.TemporaryDirectory() as folder:
     stripped = os.path.join(folder, "libpt.so")
