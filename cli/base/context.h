@@ -36,7 +36,7 @@ struct LibraryError {
     std::vector<BrokenRule> rules; // empty if the message concerns no field
     std::uint64_t left_out = 0;    // broken rules beyond `rules`
 
-    // A line for each rule or, without rules, the message.
+    // Returns a line for each rule or, without rules, the message.
     std::string in_words(const std::function<std::string(const BrokenRule &)> &words) const;
 };
 

@@ -83,7 +83,7 @@ constexpr ExitCode exit_code_of(pt_result result) {
     }
 }
 
-// For errors of lib/scene_file/.
+// Gives exceptions of lib/scene_file/ an exit code.
 template <typename Call>
 auto with_exit_code(const Call &call) {
     try {

@@ -29,7 +29,7 @@ fs::path target_of(const NamedFile &file, bool is_input) {
         return file.path;
     if (is_input)
         return platform::regular_size(platform::standard_input) ? "/dev/stdin" : "";
-    return "/dev/stdout"; // two reports on one stream would mix
+    return "/dev/stdout"; // even a terminal, where two outputs would mix
 }
 
 // Whether both are one existing file, or one name in one folder.

@@ -156,7 +156,7 @@ void refuse_option(const std::string &option, const std::string &rule, const std
     throw CLI::ValidationError(option, rule + ", is \"" + text + "\"");
 }
 
-// "1,2,3" as an array. Texts that are no numbers stay.
+// Converts "1,2,3" to an array. Other texts remain strings.
 nlohmann::json numbers_of(const std::string &text) {
     auto numbers = nlohmann::json::array();
     std::istringstream parts(text);

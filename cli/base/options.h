@@ -21,7 +21,7 @@ using pt::ValueRule;
 
 using Run = std::function<int()>;
 
-// When the command line names this command, `chosen` becomes `run`. `notes` end the help.
+// When the command line names this command, `chosen` becomes `run`. The help ends with `notes`.
 CLI::App &add_command(CLI::App &program, Run &chosen, const std::string &name, const std::string &description,
                       const std::string &notes, Run run);
 
@@ -47,7 +47,7 @@ CLI::Option *add_number(CLI::App &command, const std::string &name, const ValueR
         command, name, rule, [&target](const nlohmann::json &value) { target = value.get<Number>(); }, help);
 }
 
-// find() returns the value of a known name. Messages call a name a `kind`.
+// find() returns the value of a known name. `kind` describes the names in messages.
 template <typename Target, typename Find>
 CLI::Option *add_name(CLI::App &command, const std::string &name, Target &target, Find find, std::string_view kind,
                       std::span<const std::string_view> names, const std::string &help) {

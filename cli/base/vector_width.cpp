@@ -40,7 +40,7 @@ constexpr unsigned int narrow = 256;
 constexpr unsigned int wide = 512;
 constexpr std::size_t longest_record = 1024;
 
-// Building four kernels takes as long as about this many samples.
+// Building four kernels takes about as long as this many samples.
 constexpr std::uint64_t measured_from = std::uint64_t{1} << 24;
 
 std::string processor() {
@@ -107,7 +107,7 @@ pt_result take_samples(pt_context *context, std::uint32_t count, std::uint64_t s
     return result < 0 ? result : pt_accumulate(context, &samples);
 }
 
-// Least CPU seconds of a picture, because other processes only add to them. Infinite on failure.
+// Returns the least CPU seconds of several runs, because other processes only add time. Infinite on failure.
 double seconds_at(unsigned int bits, const std::string &device, const TrialScene &scene, std::uint32_t sample_count) {
     constexpr double failed = std::numeric_limits<double>::infinity();
     auto info = pt::sized<pt_create_info>();

@@ -21,7 +21,7 @@ struct KeptWidth {
     std::string driver;
 };
 
-// Nothing for a damaged file, or a file of another processor.
+// Returns nothing if the file is damaged or from another processor.
 std::optional<KeptWidth> read_width(const std::filesystem::path &file);
 void write_width(const std::filesystem::path &file, const KeptWidth &width);
 
@@ -36,7 +36,7 @@ public:
     // instance and other threads.
     explicit VectorWidth(const KernelUse &use, bool is_free = has_avx512());
 
-    // Whether there is no result for this device, which is llvmpipe, and the samples take longer than a measurement.
+    // Whether the device is llvmpipe without a result, and the samples take longer than a measurement.
     bool should_measure(const pt_device_info &device) const;
 
     // There must be no Vulkan instance, because llvmpipe reads the width when it is loaded.
@@ -47,9 +47,9 @@ private:
 
     KernelUse use_;
     bool is_free_;
-    std::filesystem::path cache_; // the user's
+    std::filesystem::path cache_; // the user's cache folder
     std::filesystem::path file_;
-    std::string driver_; // of the result that is in use
+    std::string driver_; // driver of the result in use
 };
 
 } // namespace cli

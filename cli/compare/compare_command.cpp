@@ -22,14 +22,14 @@ namespace cli {
 namespace {
 
 struct ImageDifference {
-    // Means over the channels of pixels that are finite in both images. x are the values, and r the reference's.
+    // Means over the channels of pixels that are finite in both images. x is a value, and r the reference's value.
     double mse;          // mean of (x - r)^2
     double relative_mse; // mean of (x - r)^2 / (r^2 + 0.01)
 
     double maximum;
     std::size_t maximum_value; // index of a pixel value with this difference
 
-    std::size_t not_finite; // pixels with a channel that is not finite in either image
+    std::size_t not_finite; // pixels with an infinite or NaN channel in one of the images
 };
 
 using Values = std::span<const float>;
@@ -74,7 +74,7 @@ struct CompareOptions {
     std::string layer; // empty for the main layer
     std::string json;
     std::string difference;
-    KernelTask kernels; // replaces the images if it has a shader_dir
+    KernelTask kernels; // compared instead of images if it has a shader_dir
     LightRule rule;
     bool quiet = false;
 
@@ -214,7 +214,7 @@ struct CompareReport {
     }
 };
 
-// Prints the reason for any verdict but the same light.
+// Prints the reason unless the light is the same.
 ExitCode exit_code_of(const LightVerdict &verdict) {
     if (verdict.is_decided() && !verdict.is_different())
         return ExitCode::done;

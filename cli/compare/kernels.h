@@ -22,7 +22,7 @@ struct KernelTask {
 
 using TellLook = std::function<void(std::uint32_t samples, const LightVerdict &verdict)>;
 
-// Compares after 16 samples and at each doubling, up to the scene's spp, else 65536. Throws Failure.
+// Compares after 16 samples and after each doubling, up to the scene's spp, or 65536 without spp. Throws Failure.
 LightVerdict compare_kernels(const KernelTask &task, const TellLook &told);
 
 // The same for two contexts and a scene without files of columns, up to `most` samples.

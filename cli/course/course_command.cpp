@@ -72,7 +72,8 @@ int grade(const std::string &folder, const std::string &device) {
 
 constexpr const char *next_step = "next";
 
-// A mistake may already spoil the step before its own. This earlier step cannot name the mistake.
+// Also checks the step after a wrong one, because its mistakes may already spoil the earlier step, which cannot name
+// them.
 int check_next(CourseKernels &kernels) {
     const std::vector<CourseStep> &steps = course_steps();
     for (auto step = steps.begin(); step != steps.end(); ++step) {

@@ -11,8 +11,8 @@
 
 namespace cli {
 
-// Five lamps above a tilted floor, seen by parallel rays. The lamps are as far away as the sky. The red lamp is above
-// the floor, two green lamps are beside it, and two blue ones are opposite.
+// Five lamps above a tilted floor, seen by parallel rays. The lamps are as far away as the sky. The red lamp lies along
+// the normal. Two green lamps are beside it, opposite two blue ones.
 SceneFile lamps_above_a_floor(std::uint32_t side, std::uint32_t sample_count);
 
 using Channels = std::array<double, 3>;
@@ -39,12 +39,12 @@ double red_lamp_cosine(); // cosine of half the angle of the lamp's cone about t
 // Exact values by form factors of spheres above a plane, sin^2 a cos (Snyder 1996).
 Channels right_lamplight();
 
-// The sky is yellow. The tilted floor reflects red diffusely and green in a lobe. It emits and reflects blue, so the
-// blue channel shows the floor's own light, 1. Each pixel has one sample.
+// The sky is yellow. The tilted floor reflects red diffusely and green in a lobe. It emits blue, which the sky lacks,
+// so the blue channel shows the floor's own light, 1. Each pixel has one sample.
 SceneFile floor_under_the_sky();
 inline constexpr double floor_glossiness = 8.0;
 
-// Radiance in selftest's lamp_in_a_ball(). A direction hits the lamp with the weight `hit`, and the wall with `missed`.
+// Radiance in selftest's lamp_in_a_ball(). Directions to the lamp have the weight `hit`, others the weight `missed`.
 double light_in_a_ball(double hit, double missed, int vertices = 3);
 double ball_cosine(); // cosine of half the angle of the lamp's cone
 

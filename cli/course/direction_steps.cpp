@@ -23,7 +23,7 @@ std::vector<Measured> measure_directions(CourseKernels &kernels) {
     return measured;
 }
 
-// Each mistake is predicted without throughput and with it.
+// Each mistake is predicted with and without throughput.
 std::vector<Pattern> direction_patterns() {
     const Weight one = [](double cosine) { return no_weight_below(cosine, 1.0); };
     const double above = 1.0 - std::cos(std::numbers::pi / 6.0);

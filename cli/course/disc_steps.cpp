@@ -8,7 +8,7 @@
 namespace cli {
 namespace {
 
-// `scale` and `offset` apply to uniform places in [0, 1). With is_diagonal both coordinates have the same number.
+// `scale` and `offset` apply to uniform places in [0, 1). With is_diagonal both coordinates are equal.
 std::vector<DiscSample> places(double scale, double offset, bool is_diagonal = false, int times = 1) {
     constexpr int side = 16;
     std::vector<DiscSample> samples;

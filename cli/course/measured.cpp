@@ -19,7 +19,7 @@ struct Estimate {
     double relative_error; // a standard error
 };
 
-// Mean of (a - b)^2 / (m^2 + 0.01) with the mean m of both. Pixels are independent, but not their colors.
+// Mean of (a - b)^2 / (m^2 + 0.01) with the mean m of both. The colors of a pixel are not independent.
 Estimate relative_difference(const Picture &a, const Picture &b) {
     double sum = 0.0;
     double squares = 0.0;

@@ -43,7 +43,6 @@ class CourseKernels {
 public:
     CourseKernels(std::string shader_dir, std::string device);
 
-    // Renders the scene's number of samples.
     Picture edited(const SceneFile &scene) const { return render(edited_, scene); }
 
     // Samples that the edited kernel needs for one sample of the library's, at the same relative square error.

@@ -20,7 +20,7 @@ constexpr Range exactly(double value) {
     return {value, value};
 }
 
-// For values by quadrature.
+// Allows for the error of quadrature.
 constexpr Range nearly(double value) {
     return {0.997 * value, 1.003 * value};
 }

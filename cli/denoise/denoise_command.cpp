@@ -31,7 +31,7 @@ void check(const DenoiseOptions &options) {
     require_denoiser(options.library);
 }
 
-// Refuses unequal sample counts, with which a film has no stated error.
+// Refuses unequal sample counts, because such a film has no stated error.
 RenderReport even_report(const std::string &path, const FilmHandle &film) {
     RenderReport report = film_report(film);
     const pt_stats &stats = report.stats;

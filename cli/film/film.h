@@ -42,7 +42,6 @@ private:
 // Needs at least one sample. Reuses the memory of `bytes`.
 void save_film(const Context &context, std::vector<std::byte> &bytes);
 
-// Throws as merge() does.
 void add_film(const Context &context, const std::string &path, std::span<const std::byte> bytes);
 
 std::string ranges_text(const std::vector<pt_sample_range> &ranges);

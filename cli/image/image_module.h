@@ -90,7 +90,7 @@ struct ImageLayer {
 struct ImageData {
     ImageWindow window;
     std::span<const ImageLayer> layers = {};
-    std::span<const std::uint8_t> signals = {}; // for each pixel R, G, B; in PNG also R, G, B, A, not premultiplied
+    std::span<const std::uint8_t> signals = {}; // R, G, B of each pixel; PNG may add A, not premultiplied
     std::optional<double> gamma = {};           // for PNG, the exponent from signal to light; empty for sRGB
     std::span<const ImageAttribute> attributes = {};
 

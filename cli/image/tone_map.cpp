@@ -27,7 +27,7 @@ std::vector<std::uint8_t> map_to_bytes(std::span<const float> radiance, const To
                                        std::span<const float> alpha) {
     const std::size_t channels = alpha.empty() ? 3 : 4;
     std::vector<std::uint8_t> bytes(radiance.size() / 3 * channels);
-    constexpr std::size_t grain = 20'000; // pixels: two milliseconds of work
+    constexpr std::size_t grain = 20'000; // pixels
     in_parallel(radiance.size() / 3, grain, [&](std::size_t first, std::size_t end) {
         pt_display_info part = map.display;
         part.pixel_count = end - first;

@@ -33,7 +33,7 @@ void add_tone_map(std::vector<ImageAttribute> &attributes, const ToneMap &tone_m
 
 std::string automatic_exposure_line(const std::optional<ToneMap> &tone_map);
 
-// `radiance` has R, G, B, not negative, multiplied by alpha. `alpha` has one number per pixel, or is empty. Fails as
+// `radiance` has nonnegative R, G, B, multiplied by alpha. `alpha` has one number per pixel, or is empty. Fails as
 // ImageWriter::write() does.
 void write_display_image(ImageWriter &writer, const ImageTarget &target, ImageData image,
                          std::span<const float> radiance, const ToneMap &tone_map, std::span<const float> alpha = {});

@@ -21,11 +21,11 @@ struct Halves {
     std::span<const float> normal;
 };
 
-// A pt_round_fn that returns false, with the halves unchanged, to stop. `error` is the last round's.
+// Like pt_round_fn. To stop, returns false and leaves the halves unchanged. `error` is the last round's.
 using RenderHalves = std::function<bool(std::uint32_t sample_count, const pt_error_estimate &error, Halves &halves)>;
 
 struct Denoised {
-    RenderedImage image; // has the halves' mean as `raw`, the sum of their counts, and the second half's layers
+    RenderedImage image; // `raw` is the halves' mean; the layers are the second half's
     pt_result ended;
 };
 

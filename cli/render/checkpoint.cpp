@@ -44,7 +44,7 @@ bool Checkpoint::finish(std::uint32_t sample_count) {
     return sample_count > 0 && sample_count == written_count_;
 }
 
-// Each file is complete an interval after the previous one, so at most the samples of an interval can be lost.
+// Schedules the next save early by the time of a write, so that complete files are one interval apart.
 void Checkpoint::save(std::uint32_t sample_count) {
     take_in();
     saved_at_ = Clock::now();

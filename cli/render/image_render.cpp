@@ -150,7 +150,7 @@ void ImageRender::enter_piece() {
     const double halves = task_.half_count();
     const double other = static_cast<double>(round_.other) / round_.expected;
     progress_.enter_part((other + image_.rows_done / height) / halves, (other + end) / halves);
-    if (has_target()) // takes samples up to the next check
+    if (has_target()) // forecasts the count of the next check
         progress_.expect(forecast_sample_count(context_.stats().sample_count, 1.0, 1.0, task_.sample_count));
     stopping_.enter_piece(end);
 }
@@ -176,7 +176,7 @@ void ImageRender::render_piece() {
     }
 }
 
-// `done` is the mean of samples per pixel before the step.
+// `done` is the mean sample count before the step.
 pt_result ImageRender::take(std::uint32_t length, double done) {
     std::function<bool(double)> goes_on = [&](double fraction) {
         const double taken = fraction * std::max(length, 1U);

@@ -31,7 +31,7 @@ inline std::uint32_t next_step_length(std::uint32_t length, double seconds) {
     return static_cast<std::uint32_t>(std::clamp(wanted, double{first_step_length}, most));
 }
 
-// Whether to end because of a signal or a changed source. Stays true once it is.
+// Whether a signal or a changed source ends the rendering. Once true, it stays true.
 using Stop = std::function<bool()>;
 
 // Calls pt_set_render for the first piece. Returns the number of rows of a piece: the option's, or all rows, halved
@@ -89,7 +89,7 @@ private:
     const RenderTask &task_;
     std::uint32_t rows_;
     Stop stop_;
-    WritePreview write_preview_; // empty for halves, and for frames, where an existing file means a finished frame
+    WritePreview write_preview_; // empty for halves, and for frames, whose existing files must be complete
     Clock::time_point start_ = Clock::now();
     Progress progress_;
     Round round_{};
@@ -97,7 +97,7 @@ private:
     std::uint32_t piece_rows_ = 0;
 
     Clock::time_point next_error_;
-    StoppingTest stopping_; // without rules if the image is a half
+    StoppingTest stopping_; // has no rules for a half
     Clock::time_point last_preview_ = start_;
     std::atomic<bool> has_preview_failed_ = false;
     RenderedImage preview_{};

@@ -47,7 +47,7 @@ KernelUse kernel_use(const RenderTask &task);
 
 pt_create_info render_create_info(const RenderOptions &options, ValidationLog &log);
 
-// Renders again on one context whenever a source changes, until a signal. Returns 0 after a signal while it waits.
+// Renders again on one context whenever a source changes, until a signal. Returns 0 if the signal comes during a wait.
 // Throws Failure if no edit of a source could help.
 int render_watched(const RenderOptions &options, ValidationLog &log);
 

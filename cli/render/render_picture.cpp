@@ -202,7 +202,7 @@ ExitCode render_picture(const Context &context, const RenderTask &task, const Re
         print_pieces(context, task, rows);
     report.create_seconds = seconds_since(times.create_start);
 
-    // Created first, so that drivers do not wait for the loading module.
+    // The module loads while the next steps run.
     ImageWriter writer;
     if (needs_module(options.output))
         writer.load_module();

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 constexpr std::chrono::milliseconds interval{100};
 constexpr std::chrono::milliseconds settling{50};
 
-// Within one tick of the file's time, a second change would not be visible.
+// A second change soon after the first may leave the file's time unchanged.
 bool is_fresh(const fs::path &path) {
     std::error_code error;
     const fs::file_time_type written = fs::last_write_time(path, error);

@@ -74,7 +74,7 @@ bool is_black(std::span<const float> radiance) {
 // Relative errors count light below 0.1 as 0.1 (pt_error_estimate). A dark picture therefore has small relative errors
 // even if it is noisy.
 std::optional<std::string> picture_below_its_target(const RenderReport &report, std::span<const float> radiance) {
-    // The picture's average is then 0.18 / 2^4.5 = 0.008. A target of 1% permits noise of 1% of 0.1.
+    // At this limit the picture's average is 0.18 / 2^4.5 = 0.008. A target of 1% permits noise of 1% of 0.1.
     constexpr double most_stops = 4.5;
     if (report.target_error <= 0.0 || is_black(radiance))
         return std::nullopt;

@@ -14,8 +14,8 @@ namespace cli {
 
 inline constexpr double unit_roundoff = 0x1p-24; // float32
 
-// Largest relative float32 error of a sample, for 50 operations. Division is the least exact. Vulkan permits 2.5 ulp
-// for it, which are 5 roundoffs.
+// Largest relative float32 error of a sample, for 50 operations. Vulkan permits 2.5 ulp, which are 5 roundoffs, for
+// division, the least exact one.
 inline constexpr double sample_rounding = 50 * 5 * unit_roundoff;
 
 struct SelftestCheck {

@@ -75,9 +75,9 @@ SeenLamp lamp_seen(const pt_sphere &lamp, const pt_camera &camera) {
     return {way[1] / distance, lamp.radius / distance};
 }
 
-// A sphere above a plane gives the radiance A L (r / d)^2 cos, as a point would (Snyder 1996). For directions by solid
-// angle, with sin a = r / d, the relative deviation is below sin a tan + 1 - cos a. Directions by the cosine hit the
-// lamp with probability p = sin^2 a cos, and their weight is at most p^2.
+// A sphere above a plane gives the radiance A L (r / d)^2 cos b, as a point would (Snyder 1996). b is the angle of the
+// lamp to the normal, and sin a = r / d. For directions by solid angle, the relative deviation is below sin a tan b +
+// 1 - cos a. Directions by the cosine hit the lamp with probability p = sin^2 a cos b, and their weight is at most p^2.
 SelftestScene floor_under_lamp(const std::string &name, const std::string &members) {
     const SceneFile scene = floor_scene(members);
     const auto [cosine, sine] = lamp_seen(scene.spheres[0], scene.camera);

@@ -29,7 +29,7 @@ void check(const TonemapOptions &options) {
     require_distinct_files({{"the image", options.input}}, {{"the output", options.output}});
 }
 
-// Other programs' pixels may lie outside the picture. They then become a whole picture.
+// Images of other programs may extend outside the picture. They are treated as whole pictures.
 ImageWindow window_of(const DecodedImage &image) {
     const auto inside = [](std::int32_t first, std::uint32_t count, std::uint32_t full) {
         return first >= 0 && static_cast<std::uint64_t>(first) + count <= full;
