@@ -154,7 +154,7 @@ void arrive(inout Path path, Departure departure, Lamps lamps, Hit hit, bool blo
 // adds only emission, so this test may save a walk.
 bool may_meet_light(Start start, vec3 direction, Hit hit, float time)
 {
-    const uint few_lamps = 16u;
+    const uint few_lamps = min(UNROLLED, 31u);
     if (TREE_LAMPS == 0u)
         return hit.surface != NO_SURFACE && may_emit(hit.surface);
     if (PLANES_EMIT == 1u || SKY_COUNT > 0u || LAMP_COUNT > few_lamps)

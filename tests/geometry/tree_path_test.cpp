@@ -49,4 +49,26 @@ TEST(TreePath, TakeTheSamplesOfWholeWalks) {
     EXPECT_GT(beyond_branches, 0);
 }
 
+TEST(TreePath, LastDirectionsFindAllLampsOfAList) {
+    std::vector<pt_sphere> lamps;
+    for (int i = 0; i < 24; ++i)
+        lamps.push_back({{0.8 * (i % 6) - 2.0, 0.5, -0.8 * (i / 6) - 3.0}, 0.3, {0, 0, 0}, 0, 0});
+    const pt::Material lamp{glm::vec3(0.0F), glm::vec3(0.0F), glm::vec3(1.0F), 0.0F};
+    const pt::Material matt{glm::vec3(0.7F), glm::vec3(0.0F), glm::vec3(0.0F), 0.0F};
+    const pt::Camera camera{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 1.0, 0.0, 1.0};
+    pt::RenderSettings settings = KernelRender::settings(2);
+    settings.estimator = PT_ESTIMATOR_COSINE;
+    const auto render_of = [&](std::uint32_t tree_from) {
+        return KernelRender(pt::view_of(
+            prepared_scene_of({{lamp, matt}, {lamps, {}}, {{{0, 1, 0}, 1.0, 1}}}, tree_from), camera, settings));
+    };
+    const KernelRender list = render_of(1000);
+    const KernelRender tree = render_of(1);
+    ASSERT_EQ(tree.features()[pt::gpu::ID_TREE_LAMPS], lamps.size());
+    Probe probe = tree.probe_of_tree();
+    const double mean = mean_of(list.radiance(list.film(pt::gpu::SCENE_IN_UNIFORM, list.words())));
+    EXPECT_GT(mean, 0.05);
+    EXPECT_NEAR(mean_of(tree.radiance(tree.film_by(probe))), mean, 1e-3 * mean);
+}
+
 } // namespace
