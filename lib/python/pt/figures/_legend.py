@@ -70,7 +70,7 @@ def save_legend(legend: Legend, path: Path) -> None:
 
 
 def write(sheet: Any, file: Any, format: str, **more: Any) -> None:
-    """Files of equal sheets have equal bytes. Words stay words."""
+    """Equal sheets give equal bytes. Words remain text, not outlines."""
     dates = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
     with matplotlib().rc_context({"svg.hashsalt": "pt", "svg.fonttype": "none", "pdf.fonttype": 42}):
         sheet.savefig(file, format=format, metadata=dates.get(format), **more)

@@ -31,7 +31,7 @@ class Pairs(NamedTuple):
 
 
 def pairs_within(positions: Array, cutoff: float, cell: Cell | None, radii: Array | None = None, slack: float = 0.0) -> Pairs:
-    """Finds pairs at most `cutoff` apart and, with radii, at most their sum plus `slack`. Raises ValueError for too many."""
+    """Finds pairs at most `cutoff` apart and, with `radii`, at most the sum of both radii plus `slack`. Raises ValueError for too many."""
     positions = positions.astype(np.float64)
     sources, shifts = _images(positions, cell, cutoff)
     places = positions[sources] if cell is None else positions[sources] + shifts @ cell.vectors
@@ -65,7 +65,7 @@ def _is_first(first: Array, second: Array, steps: Array) -> Array:
 
 
 def _images(positions: Array, cell: Cell | None, cutoff: float) -> tuple[Array, Array]:
-    """Returns index and shift, in edges of the cell, of each particle in the cell, then of each image within the cutoff."""
+    """Returns indices, and shifts in edges of the cell: first each particle in the cell, then each image within the cutoff."""
     sources = np.arange(len(positions))
     if cell is None:
         return sources, np.zeros((len(positions), 3))

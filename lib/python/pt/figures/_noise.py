@@ -24,7 +24,7 @@ FLOOR: Final = 1.0  # like WORST, for a floor before its shadows are smoothed
 SHARE: Final = 1.03  # rounds aim at this multiple of the allowed square, because quasi-random samples do better than random ones
 SEQUENCES: Final = 1.0 / math.sqrt(7.0)  # the error of quasi-random points may be this fraction of the stated one
 
-Show = Callable[[Array, Array], Array]  # shows light in 16 bits, with the exposure of an image
+Show = Callable[[Array, Array], Array]  # converts light to 16 bits, with the exposure of an image
 
 
 @dataclass(frozen=True)
@@ -57,7 +57,7 @@ def squares_of(show: Show, radiance: npt.NDArray[np.float32], error: npt.NDArray
 
 def until_invisible(context: Context, scene: Scene, camera: Camera, settings: RenderSettings, show: Show, covered: Array,
                     progress: Progress | None) -> Image:
-    """Returns the image also after progress returned True."""
+    """Returns an image even if progress stops the rendering."""
     done, ended = 0.5, False
 
     def watched(first: float, last: float) -> Progress | None:
@@ -84,8 +84,8 @@ def until_invisible(context: Context, scene: Scene, camera: Camera, settings: Re
 
 
 def _goals(squares: Doubles, covered: Array, counts: Doubles, noise: Noise) -> Doubles:
-    """Returns each tile's samples after the next round. The fewest that reach the noise are proportional to the root of the variance.
-    Variances are means over neighbouring tiles, because a single one may be small by chance."""
+    """Returns each tile's samples after the next round. The least total reaches the noise with counts proportional to
+    the root of the variance. Variances are means over neighbouring tiles, because a single one may be small by chance."""
     pixels = _by_tiles(covered | (squares > 0.0))
     variances = _around(_by_tiles(squares) * counts) / np.maximum(_around(pixels), 1.0) * (pixels > 0.0)
     weights = variances * _by_tiles(covered)

@@ -72,7 +72,7 @@ def rays_per_side(samples: float, pixels: int) -> int:
 
 def read_shares(context: Context, camera: Camera, settings: RenderSettings, overlaid: Overlaid, per_side: int = PER_SIDE
                 ) -> Shares:
-    """Replaces the render settings of the context. Outlines take PER_SIDE rays."""
+    """Replaces the render settings of the context."""
     width, height = settings.width, settings.height
     shares = Shares(np.zeros((height, width)), np.zeros((height, width)))
     margin = math.ceil(0.5 * WIDER * line_width((width, height))) + 1 if overlaid.outlines else 0

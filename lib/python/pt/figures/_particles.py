@@ -90,7 +90,7 @@ class Particles:
         return self.turned(self.cell.turns(self.positions))
 
     def turned(self, turns: Array) -> Particles:
-        """Moves particles back by numbers of the cell's edges, shape (n, 3)."""
+        """Moves particles back by turns @ cell.vectors. turns: shape (n, 3)."""
         assert self.cell is not None
         bonds, positions = self.bonds, self.positions.copy()
         for rows in chunks(len(positions)):

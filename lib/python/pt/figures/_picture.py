@@ -26,7 +26,7 @@ def font_of(height: int, options: Options) -> float:
 
 
 def strip_of(legend: Legend, height: int, options: Options) -> int:
-    """In pixels."""
+    """Returns the width in pixels."""
     if not options.colorbar or legend is None:
         return 0
     dpi = options.printed_dpi or PIXELS_PER_INCH

@@ -1,4 +1,4 @@
-"""A style sets options that have their defaults."""
+"""A style sets options that the user left at their defaults."""
 
 from __future__ import annotations
 

@@ -83,7 +83,7 @@ class BuiltIn:
             self._cost = elapsed / taken
 
     def _take(self, found: Comparison) -> None:
-        """A difference stays the verdict, because the rate of false ones holds for all comparisons together."""
+        """A difference remains the verdict, because the rate of false alarms holds for all comparisons together."""
         self._differs = self._differs or found.light == Light.DIFFERENT
         if found.light == Light.DIFFERENT or not self._differs:
             self.verdict = verdict_of(found)

@@ -24,7 +24,7 @@ export class PathView {
     this.request();
   }
 
-  // Called when another pixel is held, or none.
+  // Called when another pixel or no pixel is held.
   changes(held) {
     this.trace = undefined;
     $("path").hidden ||= !held;

@@ -63,7 +63,6 @@ function fit() {
   mark();
 }
 
-// Outlines the pixel that is held, and draws the path.
 function mark() {
   if (!pixels)
     return;
