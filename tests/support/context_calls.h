@@ -2,6 +2,7 @@
 
 #include "tests/support/coursework_scene.h"
 #include "tests/support/image_target.h"
+#include "tests/support/scene_of.h"
 
 #include <pt/film.h>
 #include <pt/pt.h>
@@ -24,7 +25,7 @@ inline void set_coursework(pt_context *on, const pt_render &render,
 }
 
 inline void accumulate_on(pt_context *on, std::uint32_t sample_count) {
-    const pt_accumulate_info info{sizeof info, sample_count, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
+    const pt_accumulate_info info = accumulate_info(sample_count);
     ASSERT_EQ(pt_accumulate(on, &info), PT_OK) << pt_last_error(on);
 }
 

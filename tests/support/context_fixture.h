@@ -3,6 +3,8 @@
 #pragma once
 
 #include "tests/support/image_target.h"
+#include "tests/support/scene_of.h"
+#include "tests/support/sized.h"
 
 #include <pt/devices.h>
 #include <pt/pt.h>
@@ -23,15 +25,13 @@ struct DestroyContext {
 using Context = std::unique_ptr<pt_context, DestroyContext>;
 
 inline pt_stats stats_of(pt_context *context) {
-    pt_stats stats{};
-    stats.struct_size = sizeof stats;
+    auto stats = sized<pt_stats>();
     EXPECT_EQ(pt_get_stats(context, &stats), PT_OK) << pt_last_error(context);
     return stats;
 }
 
 inline pt_error_estimate error_of(pt_context *context) {
-    pt_error_estimate error{};
-    error.struct_size = sizeof error;
+    auto error = sized<pt_error_estimate>();
     EXPECT_EQ(pt_get_error_estimate(context, &error), PT_OK) << pt_last_error(context);
     return error;
 }
@@ -59,8 +59,7 @@ protected:
     Context create_context(
         const std::function<void(pt_create_info &)> &adjust = [](pt_create_info &) {},
         const Create &create = &pt_create) {
-        pt_create_info info{};
-        info.struct_size = sizeof info;
+        auto info = sized<pt_create_info>();
         info.flags = std::getenv("PT_TEST_NO_VALIDATION") ? 0 : PT_CREATE_VALIDATION;
         info.device = std::getenv("PT_TEST_DEVICE");
         info.log = &ContextFixture::collect;
@@ -72,7 +71,7 @@ protected:
     }
 
     void accumulate(std::uint32_t sample_count) {
-        const pt_accumulate_info info{sizeof info, sample_count, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
+        const pt_accumulate_info info = accumulate_info(sample_count);
         ASSERT_EQ(pt_accumulate(context(), &info), PT_OK) << pt_last_error(context());
     }
 

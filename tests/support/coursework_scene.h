@@ -38,13 +38,5 @@ struct CourseworkScene {
     pt_scene scene() const { return scene_of(materials, spheres, planes); }
 
     // The camera is at (0, 0, 1) and looks at the origin. The image plane's height equals its distance.
-    static pt_camera camera() {
-        pt_camera camera{};
-        camera.struct_size = sizeof camera;
-        camera.shutter_close = 1;
-        camera.position[2] = 1;
-        camera.up[1] = 1;
-        camera.vertical_fov = 2 * std::atan(0.5);
-        return camera;
-    }
+    static pt_camera camera() { return camera_at({0, 0, 1}, {0, 0, 0}, 2 * std::atan(0.5)); }
 };

@@ -5,6 +5,7 @@
 #include "tests/support/render_image.h"
 #include "tests/support/scene_of.h"
 #include "tests/support/shared_context.h"
+#include "tests/support/sized.h"
 #include "tests/support/statistics.h"
 
 #include <algorithm>
@@ -53,8 +54,7 @@ struct Given {
 
     pt_sphere_array array() const {
         constexpr std::uint32_t stride = sizeof(Capsule);
-        pt_sphere_array array{};
-        array.struct_size = sizeof array;
+        auto array = sized<pt_sphere_array>();
         array.count = static_cast<std::uint32_t>(capsules.size());
         array.center = {capsules[0].center, stride, PT_TYPE_FLOAT64};
         array.end = {capsules[0].end, stride, PT_TYPE_FLOAT64};
@@ -92,18 +92,6 @@ inline Given scaled(Given given, double by) {
     return given;
 }
 
-inline pt_camera camera_at(const glm::dvec3 &position, const glm::dvec3 &target, double vertical_fov) {
-    pt_camera camera{};
-    camera.struct_size = sizeof camera;
-    for (int axis = 0; axis < 3; ++axis) {
-        camera.position[axis] = position[axis];
-        camera.target[axis] = target[axis];
-    }
-    camera.up[1] = 1;
-    camera.vertical_fov = vertical_fov;
-    return camera;
-}
-
 inline Given random_scene(std::uint32_t seed, std::uint32_t rods, std::uint32_t balls, double distance) {
     std::mt19937 engine(seed);
     const auto uniform = [&](double low, double high) {
@@ -139,8 +127,7 @@ inline Given random_scene(std::uint32_t seed, std::uint32_t rods, std::uint32_t 
 using Blocks = std::vector<DoublePathTracer::Estimate>;
 
 inline pt_render picture_of(std::uint32_t sampler) {
-    pt_render render{};
-    render.struct_size = sizeof render;
+    auto render = sized<pt_render>();
     render.width = picture.x;
     render.height = picture.y;
     render.max_path_length = 3;
@@ -209,8 +196,7 @@ protected:
     // Short submissions, two devices or another unit of length must keep the bits. Negative control: one sample fewer.
     void expect_the_same_bits_of_splits_and_scale(const Given &given) {
         const Context hurried = create_context([](pt_create_info &info) { info.submit_milliseconds = 1; });
-        const Context shared = create_context(
-            [](pt_create_info &) {}, [](const auto *info, auto **made) { return create_shared(2, *info, made, true); });
+        const Context shared = create_context([](pt_create_info &) {}, shared_by(2, true));
         ASSERT_TRUE(hurried && shared);
         const std::vector<float> whole = image(given, 16);
         const pt_render render = picture_of(PT_SAMPLER_SOBOL);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tests/support/image_target.h"
+#include "tests/support/scene_of.h"
 
 #include <pt/pt.h>
 
@@ -11,7 +12,7 @@
 
 inline std::vector<float> render_image(pt_context *context, const pt_scene &scene, const pt_camera &camera,
                                        const pt_render &render, std::uint32_t samples) {
-    const pt_accumulate_info count{sizeof count, samples, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
+    const pt_accumulate_info count = accumulate_info(samples);
     std::vector<float> image(std::size_t{3} * render.width * render.height);
     const pt_image target = image_target(image);
     EXPECT_EQ(pt_set_scene(context, &scene), PT_OK) << pt_last_error(context);

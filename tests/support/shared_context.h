@@ -18,6 +18,12 @@ inline pt_result create_shared(uint32_t devices_of_each, const pt_create_info &i
     });
 }
 
+inline auto shared_by(uint32_t devices_of_each, bool like_gpus, std::optional<uint32_t> adaptive_from = std::nullopt) {
+    return [=](const pt_create_info *info, pt_context **context) {
+        return create_shared(devices_of_each, *info, context, like_gpus, adaptive_from);
+    };
+}
+
 inline pt_result create_with_tree_from(uint32_t spheres, const pt_create_info *info, pt_context **context) {
     return pt::guard(pt::thread_last_error, [&] {
         pt::CreateSettings settings = pt::validated_create(*info);
