@@ -2,6 +2,7 @@
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/support/shared_context.h"
+#include "tests/support/sized.h"
 
 #include <pt/async.h>
 #include <pt/film.h>
@@ -41,19 +42,14 @@ protected:
 
     Context context_on(uint32_t device_count, uint32_t submit_milliseconds = 50, bool like_gpus = false) {
         return create_context([&](pt_create_info &info) { info.submit_milliseconds = submit_milliseconds; },
-                              [&](const pt_create_info *info, pt_context **context) {
-                                  return create_shared(device_count, *info, context, like_gpus, like_gpus ? 16 : 0);
-                              });
+                              shared_by(device_count, like_gpus, like_gpus ? 16 : 0));
     }
 
     static void begin(pt_context *on) { set_coursework(on, render_of(uneven_width, uneven_height, 2)); }
 
     static pt_result take(pt_context *on, uint32_t samples, double target_error, uint32_t sampling = PT_SAMPLING_BEST,
                           uint32_t limit = 0) {
-        pt_accumulate_info info{};
-        info.struct_size = sizeof info;
-        info.sample_count = samples;
-        info.target_error = target_error;
+        pt_accumulate_info info = accumulate_info(samples, target_error);
         info.sampling = sampling;
         info.sample_limit = limit;
         return pt_accumulate(on, &info);
@@ -139,8 +135,7 @@ TEST_F(AdaptiveTest, SplitsAndResumesChangeNoBit) {
             pt_context *other = second.get();
             begin(on);
             for (pt_result result = PT_OK; result != PT_TARGET_REACHED;) {
-                pt_accumulate_info info{};
-                info.struct_size = sizeof info;
+                auto info = sized<pt_accumulate_info>();
                 info.sample_count = static_cast<uint32_t>(generator() % 60);
                 info.target_error = uneven_target;
                 info.sample_limit = no_limit;

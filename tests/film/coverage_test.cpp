@@ -61,10 +61,7 @@ protected:
     }
 
     static void take(pt_context *on, std::uint32_t samples, double target_error = 0.0) {
-        pt_accumulate_info info{};
-        info.struct_size = sizeof info;
-        info.sample_count = samples;
-        info.target_error = target_error;
+        const pt_accumulate_info info = accumulate_info(samples, target_error);
         ASSERT_GE(pt_accumulate(on, &info), PT_OK) << pt_last_error(on);
     }
 
@@ -136,9 +133,7 @@ TEST_F(Coverage, OfManySamplesIsTakenInParts) {
 }
 
 TEST_F(Coverage, KnowsWhichSamplesEachTileHas) {
-    const Context adaptive =
-        create_context([](pt_create_info &) {},
-                       [](const auto *info, auto **made) { return create_shared(1, *info, made, false, 16); });
+    const Context adaptive = create_context([](pt_create_info &) {}, shared_by(1, false, 16));
     ASSERT_TRUE(adaptive);
     set(adaptive.get(), some(5, 0.0), picture());
     take(adaptive.get(), 4096, 0.01);
@@ -167,8 +162,7 @@ TEST_F(Coverage, KnowsWhichSamplesEachTileHas) {
 }
 
 TEST_F(Coverage, OfPartsIsPartOfTheWhole) {
-    const Context shared = create_context(
-        [](pt_create_info &) {}, [](const auto *info, auto **made) { return create_shared(2, *info, made, true); });
+    const Context shared = create_context([](pt_create_info &) {}, shared_by(2, true));
     ASSERT_TRUE(shared);
     set(shared.get(), some(90, 1.0), picture());
     take(shared.get(), 6);
@@ -187,10 +181,7 @@ TEST_F(Coverage, OfPartsIsPartOfTheWhole) {
                            std::span(whole).subspan(std::size_t{3} * 5 * picture_width, 3 * rows * picture_width)));
     std::vector<float> part(std::size_t{3} * 11 * 7);
     pt_image target = image_target(part, PT_QUANTITY_COVERAGE);
-    target.x = 9;
-    target.y = 2;
-    target.width = 11;
-    target.height = 7;
+    set_part(target, {9, 2, 11, 7});
     ASSERT_EQ(pt_readback(context(), &target), PT_OK) << pt_last_error(context());
     for (std::size_t row = 0; row < 7; ++row)
         EXPECT_TRUE(std::ranges::equal(std::span(part).subspan(row * 33, 33),

@@ -1,4 +1,6 @@
 #include "tests/support/film_maker.h"
+#include "tests/support/image_target.h"
+#include "tests/support/sized.h"
 
 #include <pt/errors.h>
 #include <pt/film.h>
@@ -40,15 +42,8 @@ OpenedFilm opened(const film_maker::Bytes &bytes) {
     return OpenedFilm(film);
 }
 
-template <typename Struct>
-Struct sized_struct() {
-    Struct value{};
-    value.struct_size = sizeof value;
-    return value;
-}
-
 pt_image image_in(std::vector<float> &pixels, std::uint32_t quantity) {
-    auto image = sized_struct<pt_image>();
+    auto image = sized<pt_image>();
     image.quantity = quantity;
     image.data = pixels.data();
     image.size_bytes = pixels.size() * sizeof(float);
@@ -62,7 +57,7 @@ void expect_refusal(pt_result result, pt_result expected, const std::string &mes
 
 TEST(FilmCalls, TellWhatAFilmIsOf) {
     const OpenedFilm film = opened(bytes_of(two_tiles()));
-    auto info = sized_struct<pt_film_info>();
+    auto info = sized<pt_film_info>();
     ASSERT_EQ(pt_get_film_info(film.get(), &info), PT_OK);
     EXPECT_EQ(info.width, 9U);
     EXPECT_EQ(info.height, 7U);
@@ -88,7 +83,7 @@ TEST(FilmCalls, TellWhichSamplesThereAre) {
         if (pixel.second >= 4)
             indices.erase(7);
     const OpenedFilm film = opened(bytes_of(samples));
-    auto tile = sized_struct<pt_film_tile>();
+    auto tile = sized<pt_film_tile>();
     ASSERT_EQ(pt_get_film_tile(film.get(), 1, &tile), PT_OK);
     EXPECT_EQ(tile.x, 4U);
     EXPECT_EQ(tile.y, 2U);
@@ -167,10 +162,7 @@ TEST(FilmCalls, ReadImages) {
         EXPECT_TRUE(std::isfinite(all[3 * 4])) << "of 20 samples";
         std::vector<float> part(3 * 2 * 2);
         image = image_in(part, quantity);
-        image.x = 2;
-        image.y = 1;
-        image.width = 2;
-        image.height = 2;
+        set_part(image, {2, 1, 2, 2});
         ASSERT_EQ(pt_read_film(film.get(), &image), PT_OK) << pt_last_error(nullptr);
         for (std::size_t y = 0; y < 2; ++y)
             for (std::size_t i = 0; i < 6; ++i)
@@ -218,11 +210,11 @@ TEST(FilmCalls, RefuseWhatIsNotThere) {
     const std::string null_film = "film = NULL: must not be NULL";
     std::uint64_t size = 0;
     std::uint32_t count = 0;
-    auto info = sized_struct<pt_film_info>();
-    auto tile = sized_struct<pt_film_tile>();
-    auto stats = sized_struct<pt_stats>();
-    auto error = sized_struct<pt_error_estimate>();
-    auto image = sized_struct<pt_image>();
+    auto info = sized<pt_film_info>();
+    auto tile = sized<pt_film_tile>();
+    auto stats = sized<pt_stats>();
+    auto error = sized<pt_error_estimate>();
+    auto image = sized<pt_image>();
     const pt_result results[] = {pt_merge_film(nullptr, bytes.data(), bytes.size()),
                                  pt_write_film(nullptr, nullptr, &size),
                                  pt_read_film(nullptr, &image),

@@ -2,7 +2,6 @@
 
 #include "film_sums.spv.h"
 #include "tests/kernel/probe.h"
-#include "tests/support/expected_error.h"
 #include "tests/vulkan/device_fixture.h"
 
 #include <gtest/gtest.h>
@@ -133,18 +132,6 @@ pt::PixelSums one_pixel(const Part &older, const Part &newer) {
     return sums;
 }
 
-TEST(Film, LostSamplesAreAnError) {
-    const pt::Error error = error_of([] {
-        pt::require_samples(one_pixel({9, 4, 0}, {9, 3, 0}).samples_of(0), {4, 4});
-    });
-    EXPECT_EQ(error.code(), PT_ERROR_INTERNAL);
-    EXPECT_STREQ(error.what(), "the driver took 3 of 4 samples of a pixel in one part of the film");
-    EXPECT_EQ(error_of([] {
-                  pt::require_samples(one_pixel({9, 5, 0}, {9, 3, 0}).samples_of(0), {4, 4});
-              }).code(),
-              PT_ERROR_INTERNAL);
-}
-
 TEST(Film, SumsThatNoSamplesHaveAreSeen) {
     EXPECT_TRUE(one_pixel({9, 1, 0}, {0, 0, 1}).holds({1, 1}));
     EXPECT_FALSE(one_pixel({9, 1, 0}, {0, 0, 1}).holds({1, 2}));
@@ -180,34 +167,6 @@ TEST_F(FilmStrips, AreReadAsOne) {
                               100 * plane + first + i)
                         << first << ", " << count;
         }
-}
-
-TEST_F(FilmStrips, AreReplacedAsOne) {
-    pt::DeviceFilm film(device(), 4, 4, 6);
-    const auto filled = [](std::uint32_t first, std::uint32_t count, std::uint32_t offset) {
-        pt::PixelSums sums;
-        sums.resize(count);
-        for (std::uint32_t plane = 0; plane < pt::film_planes(false); ++plane)
-            for (std::uint32_t i = 0; i < count; ++i)
-                sums.plane(plane / pt::gpu::FILM_WORDS, plane % pt::gpu::FILM_WORDS)[i] =
-                    100 * plane + first + i + offset;
-        return sums;
-    };
-    const auto all = [&] {
-        pt::PixelSums sums;
-        sums.resize(film.pixel_count());
-        film.read(0, sums);
-        return sums;
-    };
-    for (std::uint32_t cut = 1; cut < film.pixel_count(); ++cut) {
-        const pt::PixelSums before = all();
-        pt::DeviceFilm::NewSums sums(device(), film);
-        sums.write(0, filled(0, cut, cut));
-        sums.write(cut, filled(cut, film.pixel_count() - cut, cut));
-        ASSERT_TRUE(all() == before) << cut;
-        sums.replace();
-        ASSERT_TRUE(all() == filled(0, film.pixel_count(), cut)) << cut;
-    }
 }
 
 } // namespace

@@ -1,9 +1,11 @@
 #include "lib/film/pixel_format.h"
+#include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/support/image_target.h"
 #include "tests/support/render_image.h"
 #include "tests/support/shared_context.h"
+#include "tests/support/sized.h"
 
 #include <pt/map.h>
 
@@ -33,10 +35,7 @@ protected:
     void on_each_path(const Test &test) {
         for (const auto &[devices, like_gpus] : {std::tuple(1U, false), {1U, true}, {2U, true}}) {
             SCOPED_TRACE("devices: " + std::to_string(devices) + ", used as GPUs: " + std::to_string(like_gpus));
-            const Context context = create_context([](pt_create_info &) {},
-                                                   [&, count = devices, gpus = like_gpus](auto *info, auto **made) {
-                                                       return create_shared(count, *info, made, gpus);
-                                                   });
+            const Context context = create_context([](pt_create_info &) {}, shared_by(devices, like_gpus));
             ASSERT_TRUE(context);
             render(context.get());
             test(context.get());
@@ -72,16 +71,12 @@ TEST_F(ReadbackTest, RectanglesAndFormatsArePartsOfTheImage) {
                     for (std::uint32_t i = 0; i < rows; ++i)
                         pt::write_pixels(std::span(all).subspan(3 * ((y + i) * whole_width + x), 3 * columns), format,
                                          &expected[i * (row + gap)]);
-                    pt_image target{};
-                    target.struct_size = sizeof target;
+                    auto target = sized<pt_image>();
                     target.quantity = quantity;
                     target.data = found.data();
                     target.size_bytes = found.size();
                     target.row_bytes = row + gap;
-                    target.x = x;
-                    target.y = y;
-                    target.width = width;
-                    target.height = height;
+                    set_part(target, {x, y, width, height});
                     target.format = format;
                     ASSERT_EQ(pt_readback(context, &target), PT_OK) << pt_last_error(context);
                     ASSERT_TRUE(found == expected)
@@ -98,14 +93,10 @@ TEST_F(ReadbackTest, MappedImagesHaveTheSameBytes) {
                 for (const auto &[x, y, width, height] :
                      {std::tuple(2U, 5U, 30U, 20U), {0U, 0U, whole_width, whole_height}, {60U, 39U, 1U, 1U}}) {
                     std::vector<std::byte> expected(std::size_t{width} * height * pt::pixel_bytes(format), untouched);
-                    pt_image image{};
-                    image.struct_size = sizeof image;
+                    auto image = sized<pt_image>();
                     image.quantity = quantity;
                     image.format = format;
-                    image.x = x;
-                    image.y = y;
-                    image.width = width;
-                    image.height = height;
+                    set_part(image, {x, y, width, height});
                     void *pixels = nullptr;
                     std::uint64_t size = 0;
                     ASSERT_EQ(pt_map_image(context, &image, &pixels, &size), PT_OK) << pt_last_error(context);
@@ -122,16 +113,12 @@ TEST_F(ReadbackTest, MappedImagesHaveTheSameBytes) {
 TEST_F(ReadbackTest, AMappedImageStaysWhileTheNextIsRendered) {
     on_each_path([](pt_context *context) {
         const std::vector<float> before = whole(context, PT_QUANTITY_RADIANCE);
-        pt_image image{};
-        image.struct_size = sizeof image;
+        auto image = sized<pt_image>();
         void *pixels = nullptr;
         ASSERT_EQ(pt_map_image(context, &image, &pixels, nullptr), PT_OK) << pt_last_error(context);
         const pt_camera camera = CourseworkScene::camera();
         ASSERT_EQ(pt_set_camera(context, &camera), PT_OK);
-        pt_accumulate_info samples{};
-        samples.struct_size = sizeof samples;
-        samples.sample_count = 3;
-        ASSERT_EQ(pt_accumulate(context, &samples), PT_OK);
+        accumulate_on(context, 3);
         EXPECT_NE(whole(context, PT_QUANTITY_RADIANCE), before);
         EXPECT_EQ(std::memcmp(pixels, before.data(), before.size() * sizeof(float)), 0);
         void *again = nullptr;
@@ -154,8 +141,7 @@ TEST_F(ReadbackTest, MappedImagesHaveNoMemoryOfTheCallers) {
                                    "image.row_bytes = 732: must be 0: rows have no gaps"})
         EXPECT_NE(message.find(rule), std::string::npos) << message;
     EXPECT_EQ(pixels, nothing);
-    pt_image image{};
-    image.struct_size = sizeof image;
+    auto image = sized<pt_image>();
     EXPECT_EQ(pt_map_image(context(), &image, nullptr, nullptr), PT_ERROR_INVALID_ARGUMENT);
     EXPECT_STREQ(pt_last_error(context()), "data = NULL: must not be NULL");
 }

@@ -2,8 +2,11 @@
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
+#include "tests/support/image_target.h"
 #include "tests/support/render_image.h"
+#include "tests/support/scene_of.h"
 #include "tests/support/shared_context.h"
+#include "tests/support/sized.h"
 #include "tests/vulkan/caller_vulkan.h"
 #include "tests/vulkan/held_work.h"
 
@@ -70,8 +73,7 @@ protected:
 
     void use_context(bool like_gpus) {
         const pt_vulkan vulkan = caller_->handles();
-        pt_create_info info{};
-        info.struct_size = sizeof info;
+        auto info = sized<pt_create_info>();
         info.vulkan = &vulkan;
         pt_context *created = nullptr;
         ASSERT_EQ(create_shared(1, info, &created, like_gpus), PT_OK) << pt_last_error(nullptr);
@@ -84,8 +86,7 @@ protected:
     pt_context *context() const { return context_.get(); }
 
     pt_buffer_image target() const {
-        pt_buffer_image image{};
-        image.struct_size = sizeof image;
+        auto image = sized<pt_buffer_image>();
         image.buffer = std::bit_cast<std::uint64_t>(static_cast<VkBuffer>(buffer_->handle()));
         image.size_bytes = buffer_bytes;
         return image;
@@ -100,15 +101,11 @@ protected:
             std::uint64_t{image.width == 0 ? lent_width : image.width} * pt::pixel_bytes(image.format);
         const std::uint32_t rows = image.height == 0 ? lent_height : image.height;
         BufferContents pixels(row * rows);
-        pt_image part{};
-        part.struct_size = sizeof part;
+        auto part = sized<pt_image>();
         part.quantity = image.quantity;
         part.data = pixels.data();
         part.size_bytes = pixels.size();
-        part.x = image.x;
-        part.y = image.y;
-        part.width = image.width;
-        part.height = image.height;
+        set_part(part, {image.x, image.y, image.width, image.height});
         part.format = image.format;
         EXPECT_EQ(pt_readback(context(), &part), PT_OK) << pt_last_error(context());
         BufferContents bytes = untouched_buffer();
@@ -176,10 +173,7 @@ TEST_F(ReadbackToBufferTest, HasTheBitsOfReadback) {
                 whole.format = format;
                 pt_buffer_image part = whole;
                 part.offset_bytes = 1236;
-                part.x = 7;
-                part.y = 11;
-                part.width = 50;
-                part.height = 20;
+                set_part(part, {7, 11, 50, 20});
                 part.row_bytes = 820;
                 for (const pt_buffer_image &image : {whole, part}) {
                     buffer_.emplace(*caller_, vk::BufferUsageFlagBits::eStorageBuffer);
@@ -237,28 +231,19 @@ TEST_F(ReadbackToBufferTest, SemaphoresOrderItOnTheDevice) {
     }
 }
 
-TEST_F(ReadbackToBufferTest, TheContextGoesOnMeanwhile) {
+// The validation layer reports memory that is freed too early.
+TEST_F(ReadbackToBufferTest, TheContextMayChangeAndEndMeanwhile) {
     use_context(true);
-    const BufferContents before = expected(target());
     const vk::raii::Semaphore semaphores[] = {caller_->device().createSemaphore({}),
-                                              caller_->device().createSemaphore({}),
                                               caller_->device().createSemaphore({})};
-    const auto start = [&](const vk::raii::Semaphore &semaphore) {
+    const pt_render smaller = render_of(5, 4, 3);
+    for (const vk::raii::Semaphore &semaphore : semaphores) {
         pt_buffer_image image = target();
         image.signal_semaphore = handle_of(semaphore);
         EXPECT_EQ(pt_readback_to_buffer(context(), &image), PT_OK) << pt_last_error(context());
-    };
-    const pt_accumulate_info more{sizeof more, 40, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
-    start(semaphores[0]);
-    EXPECT_EQ(pt_accumulate(context(), &more), PT_OK) << pt_last_error(context());
-    caller_->device().waitIdle();
-    EXPECT_TRUE(buffer_->bytes() == before);
-    EXPECT_FALSE(expected(target()) == before) << "more samples, another image";
-    start(semaphores[1]);
-    const pt_render smaller = render_of(5, 4, 3);
-    EXPECT_EQ(pt_set_render(context(), &smaller), PT_OK) << pt_last_error(context());
-    EXPECT_EQ(pt_accumulate(context(), &more), PT_OK) << pt_last_error(context());
-    start(semaphores[2]);
+        EXPECT_EQ(pt_set_render(context(), &smaller), PT_OK) << pt_last_error(context());
+        accumulate_on(context(), 40);
+    }
     context_.reset();
     caller_->device().waitIdle();
 }
@@ -270,7 +255,7 @@ TEST_F(ReadbackToBufferTest, LaterSamplesDoNotChangeIt) {
         const vk::raii::Semaphore after = caller_->device().createSemaphore({});
         pt_buffer_image image = target();
         image.signal_semaphore = handle_of(after);
-        const pt_accumulate_info more{sizeof more, 40, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
+        const pt_accumulate_info more = accumulate_info(40);
         {
             const HeldWork gate(caller_->device());
             submit([&](const vk::raii::CommandBuffer &commands) { gate.record(commands); }, {}, {});
@@ -288,8 +273,7 @@ TEST_F(ReadbackToBufferTest, LaterSamplesDoNotChangeIt) {
 }
 
 TEST_F(ReadbackToBufferTest, NeedsALentDeviceAndSamples) {
-    pt_create_info info{};
-    info.struct_size = sizeof info;
+    auto info = sized<pt_create_info>();
     info.device = std::getenv("PT_TEST_DEVICE");
     pt_context *created = nullptr;
     ASSERT_EQ(pt_create(&info, &created), PT_OK) << pt_last_error(nullptr);
@@ -318,20 +302,13 @@ TEST_F(ReadbackToBufferTest, RefusesWhatBreaksARule) {
     EXPECT_EQ(pt_readback_to_buffer(nullptr, nullptr), PT_ERROR_INVALID_ARGUMENT);
     EXPECT_EQ(pt_readback_to_buffer(context(), nullptr), PT_ERROR_INVALID_ARGUMENT);
     pt_buffer_image image = target();
-    image.buffer = 0;
-    image.width = 62;
-    image.height = 1;
-    refused(image, PT_ERROR_INVALID_ARGUMENT,
-            "image.buffer = 0: must be a VkBuffer\nimage.x + width = 62: must be <= 61");
-    image = target();
     image.size_bytes = 24'155;
     refused(image, PT_ERROR_INVALID_ARGUMENT,
             "image.size_bytes = 24155: must be >= (height - 1) * row_bytes + width * 12 (32 * 732 + 732)");
     image.struct_size = 0;
     refused(image, PT_ERROR_INVALID_ARGUMENT,
             "image.struct_size = 0: must be the size of the struct, which holds this field");
-    EXPECT_TRUE(buffer_->bytes() == BufferContents(buffer_bytes, std::byte{guard_word & 0xff}))
-        << "nothing was written";
+    EXPECT_TRUE(buffer_->bytes() == untouched_buffer()) << "nothing was written";
 }
 
 } // namespace

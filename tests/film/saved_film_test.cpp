@@ -3,6 +3,7 @@
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/support/image_target.h"
+#include "tests/support/sized.h"
 
 #include <pt/film.h>
 
@@ -145,8 +146,7 @@ TEST_F(SavedFilm, AsAValueShowsWhatTheContextShows) {
             ASSERT_EQ(pt_read_film(value.get(), &image), PT_OK) << pt_last_error(nullptr);
             EXPECT_TRUE(here == there) << quantity << ' ' << format;
         }
-    pt_stats kept{};
-    kept.struct_size = sizeof kept;
+    auto kept = sized<pt_stats>();
     ASSERT_EQ(pt_get_film_stats(value.get(), &kept), PT_OK) << pt_last_error(nullptr);
     EXPECT_EQ(kept.sample_count, stats().sample_count);
     EXPECT_EQ(kept.rejected_samples, stats().rejected_samples);

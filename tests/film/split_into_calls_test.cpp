@@ -1,6 +1,5 @@
 #include "lib/film/error_estimate.h"
-#include "tests/kernel/coursework_view.h"
-#include "tests/kernel/probe.h"
+#include "shaders/gpu_layout.h"
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
@@ -52,79 +51,34 @@ TEST_F(SplitIntoCalls, SplittingOverCallsKeepsTheBits) {
     EXPECT_NE(image_of({7, 19, 37}), at_once) << "a missing sample must show";
 }
 
-// A call may exceed the limits of a dispatch or of the table of points.
-class GatheringTest : public SplitIntoCalls {
-protected:
-    Context create_fixtures_context() override {
-        return create_context([](pt_create_info &info) { info.submit_milliseconds = 1000; });
+// These calls exceed the limits of a dispatch and of the table of points.
+TEST_F(SplitIntoCalls, LongCallsHaveTheBitsOfShortOnes) {
+    const Context patient = create_context([](pt_create_info &info) { info.submit_milliseconds = 1000; });
+    for (const uint32_t sampler : {PT_SAMPLER_RANDOM, PT_SAMPLER_SOBOL}) {
+        const auto image_in_calls = [&](uint32_t count, uint32_t most) {
+            pt_render render = render_of(3, 1, 3);
+            render.sampler = sampler;
+            set_coursework(patient.get(), render);
+            for (uint32_t left = count; left > 0; left -= std::min(left, most))
+                accumulate_on(patient.get(), std::min(left, most));
+            EXPECT_EQ(stats_of(patient.get()).rejected_samples, 0U);
+            return values_of(patient.get(), 3);
+        };
+        for (const uint32_t more : {0U, 1U, 2U}) {
+            const uint32_t count = 4 * pt::gpu::FILM_MAX_GATHERED + more;
+            const Image at_once = image_in_calls(count, count);
+            EXPECT_EQ(image_in_calls(count, 211), at_once) << sampler << ", " << more;
+            EXPECT_NE(image_in_calls(count - 1, 211), at_once) << "a missing sample must show";
+        }
     }
-
-    struct Paths {
-        uint32_t sampler;
-        uint32_t max_length;
-    };
-
-    Image small_image_of(const Paths &paths, const std::vector<uint32_t> &calls) {
-        pt_render render = render_of(3, 1, paths.max_length);
-        render.sampler = paths.sampler;
-        set_coursework(context(), render);
-        for (const uint32_t samples : calls)
-            accumulate(samples);
-        EXPECT_EQ(stats().rejected_samples, 0U);
-        Image image(std::size_t{3} * 3);
-        readback(image);
-        return image;
-    }
-
-    uint32_t most_of_a_dispatch(const Paths &paths) {
-        const pt::Features features =
-            coursework_view({3, 1, paths.max_length, 0, 0, PT_ESTIMATOR_MIS, paths.sampler, 0, 1})->features;
-        const uint32_t row_blocks = pt::point_layout(features).row_blocks();
-        const pt::vulkan::Limits &limits = probe_device().limits();
-        uint64_t most = std::min<uint64_t>(pt::gpu::FILM_MAX_GATHERED,
-                                           limits.loop_trip_budget / pt::loop_trips_per_sample(features));
-        if (row_blocks > 0)
-            most = std::min<uint64_t>(most, limits.max_uniform_range / sizeof(pt::PointBlock) / row_blocks);
-        return static_cast<uint32_t>(most);
-    }
-
-    void expect_same_in_pieces(const Paths &paths, uint32_t sample_count) {
-        const uint64_t submissions = stats().submit_count;
-        const Image at_once = small_image_of(paths, {sample_count});
-        EXPECT_EQ(stats().submit_count, submissions + 1) << sample_count << " samples";
-        std::vector<uint32_t> pieces;
-        for (uint32_t left = sample_count; left > 0; left -= pieces.back())
-            pieces.push_back(std::min(left, 211U));
-        EXPECT_EQ(small_image_of(paths, pieces), at_once) << sample_count << " samples";
-        pieces.back() -= 1;
-        EXPECT_NE(small_image_of(paths, pieces), at_once) << "a missing sample must show";
-    }
-};
-
-// Dispatches end at powers of two, so the largest one starts at a power of two.
-TEST_F(GatheringTest, OfRandomSamplesKeepsTheBits) {
-    constexpr Paths paths{PT_SAMPLER_RANDOM, 2};
-    constexpr uint32_t most = pt::gpu::FILM_MAX_GATHERED;
-    ASSERT_EQ(most_of_a_dispatch(paths), most);
-    for (const uint32_t sample_count : {most - 1, most, most + 1, most + 2, 3 * most + 3})
-        expect_same_in_pieces(paths, 1024 + sample_count);
-}
-
-TEST_F(GatheringTest, OfPointsFromATableKeepsTheBits) {
-    constexpr Paths paths{PT_SAMPLER_SOBOL, 3};
-    const uint32_t most = most_of_a_dispatch(paths);
-    ASSERT_LT(most, 512U);
-    ASSERT_GT(most, 211U);
-    for (const uint32_t sample_count : {most - 1, most, most + 1, 512 + 3 * most + 1})
-        expect_same_in_pieces(paths, 512 + sample_count);
 }
 
 TEST_F(SplitIntoCalls, TheTargetErrorIsReachedAtTheFirstCheckThatSaysSo) {
     constexpr uint32_t most = 4096;
     constexpr double target = 0.07;
     set_up_coursework(context(), 3);
-    const pt_accumulate_info until_target{sizeof until_target, most, nullptr, nullptr, target,
-                                          PT_SAMPLING_UNIFORM, 0,    nullptr, 0,       0};
+    pt_accumulate_info until_target = accumulate_info(most, target);
+    until_target.sampling = PT_SAMPLING_UNIFORM;
     ASSERT_EQ(pt_accumulate(context(), &until_target), PT_TARGET_REACHED) << pt_last_error(context());
     const pt_stats reached = stats();
     EXPECT_GT(reached.sample_count, 16U);

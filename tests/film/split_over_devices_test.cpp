@@ -2,6 +2,7 @@
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/support/image_target.h"
+#include "tests/support/scene_of.h"
 #include "tests/support/shared_context.h"
 
 #include <gtest/gtest.h>
@@ -19,9 +20,7 @@ class SplitOverDevices : public ContextFixture {
 protected:
     Context context_on(uint32_t device_count, uint32_t submit_milliseconds, bool like_gpus = false) {
         return create_context([&](pt_create_info &info) { info.submit_milliseconds = submit_milliseconds; },
-                              [&](const pt_create_info *info, pt_context **context) {
-                                  return create_shared(device_count, *info, context, like_gpus);
-                              });
+                              shared_by(device_count, like_gpus));
     }
 
     static void set_up(pt_context *on, uint32_t first_row = 0, uint32_t row_count = 0) {
@@ -33,7 +32,7 @@ protected:
 
     static pt_result accumulate_on(pt_context *on, uint32_t samples, pt_progress_fn progress = nullptr,
                                    void *user = nullptr) {
-        const pt_accumulate_info info{sizeof info, samples, progress, user, 0, 0, 0, nullptr, 0, 0};
+        const pt_accumulate_info info = accumulate_info(samples, 0.0, progress, user);
         return pt_accumulate(on, &info);
     }
 
@@ -144,10 +143,7 @@ TEST_F(SplitOverDevices, LargeFilmsMeetInBands) {
         Image &part = parts[devices - 1];
         part.resize(std::size_t{30} * 200 * 3);
         pt_image rectangle = image_target(part);
-        rectangle.x = 700;
-        rectangle.y = 190;
-        rectangle.width = 30;
-        rectangle.height = 200;
+        set_part(rectangle, {700, 190, 30, 200});
         EXPECT_EQ(pt_readback(shared.get(), &rectangle), PT_OK) << pt_last_error(shared.get());
     }
     EXPECT_EQ(images[0], images[1]);

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <numeric>
 #include <random>
 #include <set>
 #include <vector>
@@ -60,32 +59,6 @@ TEST(SampleSet, IsTheSetOfItsIndices) {
                 ASSERT_TRUE(expected.contains(j));
             ASSERT_TRUE(next.end == pt::sample_index_end || expected.contains(next.end));
         }
-    }
-}
-
-TEST(SampleSet, SetsAreAddedToSets) {
-    std::mt19937 random(2);
-    for (int round = 0; round < 1000; ++round) {
-        SampleSet a;
-        SampleSet b;
-        SampleSet expected;
-        for (std::uint64_t index = random() % 3; index < 40;) {
-            const SampleRange range{index, index + 1 + random() % 4};
-            if (const auto to = random() % 3; to > 0) {
-                (to == 1 ? a : b).add(range);
-                expected.add(range);
-            }
-            index = range.end + random() % 2;
-        }
-        ASSERT_FALSE(a.overlap(b)) << pt::text_of(a) << " and " << pt::text_of(b);
-        const SampleSet before = a;
-        a.add(b);
-        ASSERT_EQ(a, expected);
-        for (const SampleRange &range : b.ranges()) {
-            ASSERT_FALSE(before.overlap(SampleSet(range)));
-            ASSERT_EQ(a.overlap(SampleSet({range.end - 1, range.end + 1}))->first, range.end - 1);
-        }
-        ASSERT_EQ(a.overlap(b).has_value(), !b.empty());
     }
 }
 
@@ -202,23 +175,6 @@ TEST(TileTasks, BringTilesToTheirGoals) {
             EXPECT_EQ(samples.of(tile).count_below(3), before.of(tile).count_below(3)) << "from sample 3 on";
         }
     }
-}
-
-TEST(TileTasks, OfAllTilesAreThoseOfEach) {
-    std::vector<std::uint32_t> all(7);
-    std::iota(all.begin(), all.end(), 0U);
-    const pt::TileSamples samples({56, 8}, pt::SampleSet({4, 9}));
-    const pt::Schedule schedule({1.0, 64.0 * 3, 1000});
-    pt::TileTasks together(samples.of(0), 0, all, 8);
-    pt::TileTasks each(samples, 0, all, [](std::uint32_t) { return 8; });
-    for (; !together.empty(); together.leave_behind(1), each.leave_behind(1)) {
-        const pt::TileSlice a = together.next(schedule);
-        const pt::TileSlice b = each.next(schedule);
-        EXPECT_EQ(a.tiles.front(), b.tiles.front());
-        EXPECT_TRUE(a.samples == b.samples && a.before == b.before && a.tiles.size() == b.tiles.size());
-    }
-    EXPECT_TRUE(each.empty());
-    EXPECT_TRUE(pt::TileTasks(samples.of(0), 0, all, 5).empty()) << "they have as many";
 }
 
 } // namespace

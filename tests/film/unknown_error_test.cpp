@@ -1,6 +1,7 @@
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/scene_of.h"
+#include "tests/support/sized.h"
 
 #include <pt/film.h>
 
@@ -30,12 +31,7 @@ protected:
         const pt_sphere lamp[] = {{{place[0], place[1], place[2]}, lamp_radius, {}, 1, 0}};
         const pt_plane floor[] = {{{0.0, 1.0, 0.0}, depth, 0, 0}};
         const pt_scene scene = scene_of(materials, lamp, floor);
-        pt_camera camera{};
-        camera.struct_size = sizeof camera;
-        camera.shutter_close = 1;
-        camera.target[1] = -1.0;
-        camera.up[2] = 1.0;
-        camera.vertical_fov = 1.0;
+        const pt_camera camera = camera_at({0, 0, 0}, {0, -1, 0}, 1.0, {0, 0, 1});
         pt_render render = render_of(width, height, max_path_length);
         render.estimator = estimator;
         set_picture(context(), scene, camera, render);
@@ -104,10 +100,7 @@ TEST_F(UnknownError, NoTargetIsReachedBeforeALampInViewIsMet) {
                                            {PT_SAMPLING_ADAPTIVE, 60U},
                                            {PT_SAMPLING_ADAPTIVE, 120U}}) {
         set_up(lamp_of(3.0 / needed), PT_ESTIMATOR_MIS, 1, {0.0, -10.0, 0.0}, 20.0);
-        pt_accumulate_info info{};
-        info.struct_size = sizeof info;
-        info.sample_count = 32;
-        info.target_error = 10.0;
+        pt_accumulate_info info = accumulate_info(32, 10.0);
         info.sampling = sampling;
         EXPECT_EQ(pt_accumulate(context(), &info), PT_OK);
         EXPECT_EQ(stats_of(context()).max_sample_count, 32U);
@@ -120,8 +113,7 @@ TEST_F(UnknownError, NoTargetIsReachedBeforeALampInViewIsMet) {
 
         pt_film *opened = nullptr;
         ASSERT_EQ(pt_open_film(film.data(), film.size(), &opened), PT_OK) << pt_last_error(nullptr);
-        pt_film_info film_info{};
-        film_info.struct_size = sizeof film_info;
+        auto film_info = sized<pt_film_info>();
         EXPECT_EQ(pt_get_film_info(opened, &film_info), PT_OK);
         EXPECT_EQ(film_info.lamp_sample_count, needed);
         std::array<uint32_t, 16> goals{};
