@@ -1,6 +1,7 @@
 #include "lib/scene/checked_scene.h"
 #include "lib/view/displacement.h"
 #include "tests/support/checked_scene_of.h"
+#include "tests/support/scene_of.h"
 
 #include <gtest/gtest.h>
 
@@ -32,24 +33,15 @@ pt_column column_of(const Element &first, std::uint32_t type) {
 }
 
 pt_sphere_array array_of(const std::vector<Surface> &surfaces) {
-    pt_sphere_array array{};
-    array.struct_size = sizeof array;
-    array.count = static_cast<std::uint32_t>(surfaces.size());
-    array.center = column_of(surfaces[0].center, PT_TYPE_FLOAT64);
-    array.radius = column_of(surfaces[0].radius, PT_TYPE_FLOAT64);
+    pt_sphere_array array = array_of(surfaces.size(), column_of(surfaces[0].center, PT_TYPE_FLOAT64),
+                                     column_of(surfaces[0].radius, PT_TYPE_FLOAT64));
     array.opacity = column_of(surfaces[0].opacity, PT_TYPE_FLOAT32);
     return array;
 }
 
 pt::PreparedScene prepared(const pt_sphere_array &array) {
     const pt_material black{};
-    pt_scene scene{};
-    scene.struct_size = sizeof scene;
-    scene.material_count = 1;
-    scene.materials = &black;
-    scene.sphere_array_count = 1;
-    scene.sphere_arrays = &array;
-    return prepared_scene_of(checked_scene_of(scene), 113);
+    return prepared_scene_of(checked_scene_of(scene_of({&black, 1}, {}, {}, {&array, 1})), 113);
 }
 
 std::optional<pt::BrokenRule> displaced(const std::vector<Surface> &surfaces, const pt::Camera &camera = ahead) {

@@ -8,6 +8,7 @@
 #include "tests/support/context_calls.h"
 #include "tests/support/first_hit_reference.h"
 #include "tests/support/scene_of.h"
+#include "tests/support/sized.h"
 
 #include <array>
 #include <cmath>
@@ -86,8 +87,7 @@ class RandomFirstHit : public TreeFixture {
 protected:
     static void read(pt_context *from, const Shot &given, std::uint32_t quantity, std::uint32_t format, void *data,
                      std::size_t bytes) {
-        pt_image target{};
-        target.struct_size = sizeof target;
+        auto target = sized<pt_image>();
         target.quantity = quantity;
         target.format = format;
         target.data = data;

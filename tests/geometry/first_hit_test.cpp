@@ -4,7 +4,9 @@
 #include "tests/support/context_fixture.h"
 #include "tests/support/image_target.h"
 #include "tests/support/render_image.h"
+#include "tests/support/scene_of.h"
 #include "tests/support/shared_context.h"
+#include "tests/support/sized.h"
 
 #include <algorithm>
 #include <array>
@@ -36,8 +38,7 @@ protected:
     }
 
     static pt_image object_target(std::span<std::uint32_t> objects) {
-        pt_image target{};
-        target.struct_size = sizeof target;
+        auto target = sized<pt_image>();
         target.quantity = PT_QUANTITY_OBJECT;
         target.format = PT_FORMAT_R32UI;
         target.data = objects.data();
@@ -59,8 +60,7 @@ TEST_F(FirstHit, RectanglesRowsAndDevicesAgree) {
     const Context hurried = create_context([](pt_create_info &info) { info.submit_milliseconds = 1; });
     ASSERT_TRUE(hurried);
     set(hurried.get(), given, picture());
-    const Context shared = create_context([](pt_create_info &) {},
-                                          [](auto *info, auto **made) { return create_shared(2, *info, made, true); });
+    const Context shared = create_context([](pt_create_info &) {}, shared_by(2, true));
     ASSERT_TRUE(shared);
     set(shared.get(), given, picture());
     const std::vector<std::uint32_t> all_objects = objects(context());
@@ -72,10 +72,7 @@ TEST_F(FirstHit, RectanglesRowsAndDevicesAgree) {
     constexpr std::uint32_t rows = 20;
     std::vector<std::uint32_t> some_objects(std::size_t{columns} * rows);
     pt_image target = object_target(some_objects);
-    target.x = x;
-    target.y = y;
-    target.width = columns;
-    target.height = rows;
+    set_part(target, {x, y, columns, rows});
     ASSERT_EQ(pt_readback(context(), &target), PT_OK) << pt_last_error(context());
     for (std::uint32_t row = 0; row < rows; ++row)
         EXPECT_TRUE(std::ranges::equal(std::span(some_objects).subspan(row * columns, columns),
@@ -182,11 +179,7 @@ TEST_F(FirstHit, ColumnsHaveNumbersAndColors) {
             colors.insert(colors.end(), {static_cast<float>(i) / static_cast<float>(count), 0.5F, 1.0F});
         }
         const float radius = 3.5F / static_cast<float>(side);
-        pt_sphere_array array{};
-        array.struct_size = sizeof array;
-        array.count = count;
-        array.center = {centers.data(), 12, PT_TYPE_FLOAT32};
-        array.radius = {&radius, 0, PT_TYPE_FLOAT32};
+        pt_sphere_array array = array_of(count, {centers.data(), 12, PT_TYPE_FLOAT32}, {&radius, 0, PT_TYPE_FLOAT32});
         array.color = {colors.data(), 12, PT_TYPE_FLOAT32};
         pt_scene scene = given.scene();
         scene.sphere_arrays = &array;

@@ -2,6 +2,7 @@
 #include "lib/view/scene_features.h"
 #include "lib/view/view.h"
 #include "tests/support/checked_scene_of.h"
+#include "tests/support/scene_of.h"
 
 #include <gtest/gtest.h>
 #include <pt/stats.h>
@@ -141,12 +142,7 @@ TEST(HiddenSurfaces, AreNotInTheTree) {
     std::vector<pt_sphere> spheres;
     for (std::uint32_t i = 0; i < 100; ++i)
         spheres.push_back({{3.0 * i, 0, -9}, 1, {0, 0, 0}, i % 10 == 3 ? 1U : 0U, 0});
-    pt_scene scene{};
-    scene.struct_size = sizeof scene;
-    scene.material_count = 2;
-    scene.materials = materials.data();
-    scene.sphere_count = 100;
-    scene.spheres = spheres.data();
+    const pt_scene scene = ::scene_of(materials, spheres, {});
     const pt::PreparedScene prepared = prepared_scene_of(checked_scene_of(scene), 90);
     ASSERT_TRUE(prepared.tree);
     EXPECT_EQ(prepared.tree->sphere_count(), 90U);

@@ -2,6 +2,7 @@
 
 #include "lib/view/prepared_scene.h"
 #include "tests/support/checked_scene_of.h"
+#include "tests/support/scene_of.h"
 
 #include <gtest/gtest.h>
 
@@ -75,21 +76,6 @@ TEST(KeptShape, HoldsSpheresThatHaveMoved) {
     }
 }
 
-TEST(KeptShape, HasTheWordsOfTheTreeThatItWasMadeFor) {
-    const Spheres spheres = heap(ball_count, 0.01);
-    const pt::SphereTree tree = tree_of(spheres);
-    const auto same = kept(tree, spheres);
-    ASSERT_TRUE(same);
-    EXPECT_EQ(same->words(), tree.words());
-    EXPECT_EQ(same->cost(), tree.cost());
-    const auto there = kept(tree, moved(spheres, 0.03));
-    ASSERT_TRUE(there);
-    EXPECT_NE(there->words(), tree.words());
-    const auto back = kept(*there, spheres);
-    ASSERT_TRUE(back);
-    EXPECT_EQ(back->words(), tree.words());
-}
-
 TEST(KeptShape, IsOfAllThatIsNotPlacesToo) {
     const Spheres spheres = heap(ball_count, 0.0);
     const pt::SphereTree tree = tree_of(spheres);
@@ -106,11 +92,8 @@ TEST(KeptShape, IsOfAllThatIsNotPlacesToo) {
     EXPECT_EQ(with_shape->lamp_materials().size(), (ball_count + 6) / 7);
 
     std::vector<float> colors(3 * ball_count, 0.25F);
-    pt_sphere_array array{};
-    array.struct_size = sizeof array;
-    array.count = ball_count;
-    array.center = {spheres[0].center, sizeof spheres[0], PT_TYPE_FLOAT64};
-    array.radius = {&spheres[0].radius, sizeof spheres[0], PT_TYPE_FLOAT64};
+    pt_sphere_array array = array_of(ball_count, {spheres[0].center, sizeof spheres[0], PT_TYPE_FLOAT64},
+                                     {&spheres[0].radius, sizeof spheres[0], PT_TYPE_FLOAT64});
     array.color = {colors.data(), 12, PT_TYPE_FLOAT32};
     const pt::SphereSource source({}, {&array, 1});
     pt::WorkProgress nobody;
@@ -227,18 +210,6 @@ TEST(KeptShape, IsTakenFromTheSceneBefore) {
         changes[i](changed[777]);
         EXPECT_NE(prepared(changed, nullptr).digest(), digest) << i;
     }
-}
-
-TEST(KeptShape, HasLampsOfTheirMaterials) {
-    std::vector<pt::Material> materials(3, pt::Material{glm::vec3(0.5F), glm::vec3(0), glm::vec3(0), 0});
-    materials[1].emission = glm::vec3(1);
-    materials[2].emission = glm::vec3(2);
-    Spheres spheres = heap(ball_count, 0.0);
-    spheres[0].material = 2;
-    const auto digest = [&] { return prepared_scene_of({materials, pt::SphereSource(spheres, {}), {}}, 50).digest(); };
-    const std::string before = digest();
-    spheres[3].material = 2;
-    EXPECT_NE(digest(), before);
 }
 
 } // namespace

@@ -54,13 +54,7 @@ protected:
             {{3, 2, 0}, 1, {0, 0, 0}, 0, 0},
             {{0, -1 - floor.radius, 0}, floor.radius, {floor.motion[0], floor.motion[1], floor.motion[2]}, 1, 0}};
         const pt_scene scene = scene_of(materials, spheres, {});
-        pt_camera camera{};
-        camera.struct_size = sizeof camera;
-        camera.shutter_close = 1;
-        camera.target[0] = 0.3;
-        camera.target[1] = -1;
-        camera.target[2] = -0.4;
-        camera.vertical_fov = 0.5;
+        pt_camera camera = camera_at({0, 0, 0}, {0.3, -1, -0.4}, 0.5);
         camera.shutter_open = shutter_open;
         camera.shutter_close = shutter_close;
         set_up(scene, camera);
@@ -92,13 +86,7 @@ TEST_F(HugeMotion, OfALampTheOutsideIsSeen) {
     const pt_material materials[] = {{{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0, 0}, {{0, 0, 0}, {0, 0, 0}, {4, 4, 4}, 0, 0}};
     const pt_sphere spheres[] = {{{0, -1e-3 - radius, 0}, radius, {1e3, 0, 0}, 0, 0}, {{0, 50, 0}, 5, {0, 0, 0}, 1, 0}};
     const pt_scene scene = scene_of(materials, spheres, {});
-    pt_camera camera{};
-    camera.struct_size = sizeof camera;
-    camera.shutter_close = 1;
-    camera.target[1] = 1;
-    camera.up[2] = 1;
-    camera.vertical_fov = 0.1;
-    set_up(scene, camera);
+    set_up(scene, camera_at({0, 0, 0}, {0, 1, 0}, 0.1, {0, 0, 1}));
     for (const float value : image_of(render_of(8, 8, 1), 256))
         EXPECT_EQ(value, 4.0F) << "the lamp overhead fills the view";
 }
@@ -130,7 +118,7 @@ TEST_F(HugeMotion, IsTheMeanOfFrozenTimes) {
 TEST_F(HugeMotion, IsRefusedWhereItIsTooLong) {
     const pt_render render = render_of(8, 8, 2);
     ASSERT_EQ(pt_set_render(context(), &render), PT_OK);
-    const pt_accumulate_info info{sizeof info, 1, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
+    const pt_accumulate_info info = accumulate_info(1);
     set_up_floor({1e7, {312499, 0, 0}});
     EXPECT_EQ(pt_accumulate(context(), &info), PT_OK) << pt_last_error(context());
     set_up_floor({1e7, {312501, 0, 0}});
@@ -150,12 +138,7 @@ TEST_F(HugeMotion, IsRefusedInNarrowParallelViews) {
     const pt_sphere globe{{0, -1e7, 0}, 1e7, {1e6, 0, 0}, 0, 0};
     const pt_render render = render_of(8, 8, 1);
     for (const double height : {1.0, 1e3, 1e6}) {
-        pt_camera camera{};
-        camera.struct_size = sizeof camera;
-        camera.shutter_close = 1;
-        camera.position[1] = height;
-        camera.target[0] = 1e-3 * height;
-        camera.up[2] = 1;
+        pt_camera camera = camera_at({0, height, 0}, {1e-3 * height, 0, 0}, 0.0, {0, 0, 1});
         camera.projection = PT_PROJECTION_ORTHOGRAPHIC;
         camera.vertical_extent = 1e3;
         set_up(scene_of({&shining, 1}, {&globe, 1}, {}), camera);
@@ -163,7 +146,7 @@ TEST_F(HugeMotion, IsRefusedInNarrowParallelViews) {
             EXPECT_EQ(value, 1.0F) << height;
         camera.vertical_extent = 10;
         ASSERT_EQ(pt_set_camera(context(), &camera), PT_OK) << pt_last_error(context());
-        const pt_accumulate_info info{sizeof info, 1, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
+        const pt_accumulate_info info = accumulate_info(1);
         EXPECT_EQ(pt_accumulate(context(), &info), PT_ERROR_UNSUPPORTED) << height;
         const std::string message = pt_last_error(context());
         EXPECT_TRUE(message.starts_with("spheres[0].motion = (1e+06, 0, 0): must be less than")) << message;

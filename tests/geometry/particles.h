@@ -31,11 +31,8 @@ struct Particles {
     std::function<void(pt_scene &)> spoil_scene = [](pt_scene &) {};
 
     pt_sphere_array array() const {
-        pt_sphere_array array{};
-        array.struct_size = sizeof array;
-        array.count = count;
-        array.center = {center.data(), 12, PT_TYPE_FLOAT32};
-        array.radius = {radius.data(), 4, PT_TYPE_FLOAT32};
+        pt_sphere_array array =
+            array_of(count, {center.data(), 12, PT_TYPE_FLOAT32}, {radius.data(), 4, PT_TYPE_FLOAT32});
         array.motion = {motion.data(), 24, PT_TYPE_FLOAT64};
         array.material = {material.data(), 4, PT_TYPE_UINT32};
         array.color = {color.data(), 12, PT_TYPE_FLOAT32};
@@ -60,9 +57,7 @@ struct Particles {
     }
 
     pt::Scene validated(std::span<const pt_sphere_array> arrays) const {
-        pt_scene scene = scene_of(materials, {}, {});
-        scene.sphere_arrays = arrays.data();
-        scene.sphere_array_count = static_cast<std::uint32_t>(arrays.size());
+        pt_scene scene = scene_of(materials, {}, {}, arrays);
         spoil_scene(scene);
         return pt::owned_scene(checked_scene_of(scene));
     }

@@ -115,9 +115,7 @@ TEST(SphereArrays, MayHaveTwoToTheTwentySixthSpheres) {
             column->stride_bytes = 0;
     };
     const pt_sphere_array array = particles.array();
-    pt_scene scene = scene_of(three_materials, {}, {});
-    scene.sphere_arrays = &array;
-    scene.sphere_array_count = 1;
+    pt_scene scene = scene_of(three_materials, {}, {}, {&array, 1});
     const pt::CheckedScene checked = checked_scene_of(scene);
     EXPECT_EQ(checked.spheres.size(), std::size_t{1} << 26);
     EXPECT_EQ(checked.spheres[(1U << 26) - 1].radius, 1.0);

@@ -117,32 +117,6 @@ TEST(SphereOrder, GivesEachSphereOnePlaceInATreeThatTheStackHolds) {
         }
 }
 
-TEST(SphereOrder, LeavesTheFirstOfTwins) {
-    constexpr std::uint32_t different = 3 * 50;
-    const auto ball = [](std::uint32_t i) {
-        const std::uint32_t point = i % different / 3;
-        return Ball{std::exp2(2.0F * static_cast<float>(point) - 60.0F), 0, 0, 1e-20F};
-    };
-    const auto kind = [](std::uint32_t i) { return pt::SphereBits{i % different}; };
-    const pt::TreeShape shape = shape_of(items_of(20 * different, ball), kind);
-    expect_each_once(shape.spheres, different);
-    expect_well_linked(shape);
-}
-
-// Reading bits is slow. Each sphere is read once for its hash, and again if other spheres have this hash.
-TEST(SphereOrder, ReadsTheBitsOfASphereThreeTimesAtTheMost) {
-    for (const bool are_twins : {false, true})
-        for (const Kind &kind : kinds()) {
-            SCOPED_TRACE(std::string(kind.name) + (are_twins ? ", twins" : ""));
-            std::size_t count = 0;
-            shape_of(items_of(many, kind.ball), [&](std::uint32_t sphere) {
-                ++count;
-                return pt::SphereBits{are_twins ? 0 : sphere};
-            });
-            EXPECT_LE(count, std::size_t{3} * many);
-        }
-}
-
 struct Told {
     std::vector<double> shares;
     double stop_at = 2.0;
@@ -153,20 +127,6 @@ struct Told {
         return share >= told->stop_at ? 1 : 0;
     }
 };
-
-TEST(SphereOrder, TellsHowFarItIs) {
-    for (const Kind &kind : kinds()) {
-        SCOPED_TRACE(kind.name);
-        Told told;
-        pt::WorkProgress progress(&Told::receive, &told);
-        progress.enter(0.5, 2.0 * many);
-        pt::tree_shape(items_of(many, kind.ball), own_number, progress);
-        EXPECT_GT(told.shares.size(), 5U);
-        progress.add(0.0, std::size_t{1} << 30);
-        EXPECT_EQ(told.shares.back(), 0.25);
-        EXPECT_TRUE(std::ranges::is_sorted(told.shares));
-    }
-}
 
 TEST(SphereOrder, EndsWhereItIsAskedTo) {
     for (const Kind &kind : kinds()) {

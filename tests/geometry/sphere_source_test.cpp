@@ -2,6 +2,7 @@
 #include "lib/scene/sphere_source.h"
 #include "lib/tree/tree_choice.h"
 #include "tests/geometry/particles.h"
+#include "tests/support/scene_of.h"
 
 #include <gtest/gtest.h>
 
@@ -26,11 +27,8 @@ TEST(SphereSource, ReadsInOrderAcrossArrays) {
     std::vector<pt_sphere_array> arrays;
     std::size_t first = 0;
     for (const std::uint32_t count : {0U, 1U, 300U, 0U, 0U, 700U, 2U, 0U}) {
-        pt_sphere_array array{};
-        array.struct_size = sizeof array;
-        array.count = count;
-        array.center = {&center[3 * first], 12, PT_TYPE_FLOAT32};
-        array.radius = {&radius, 0, PT_TYPE_FLOAT32};
+        pt_sphere_array array =
+            array_of(count, {&center[3 * first], 12, PT_TYPE_FLOAT32}, {&radius, 0, PT_TYPE_FLOAT32});
         if (count != 300)
             array.color = {&color[3 * first], 12, PT_TYPE_FLOAT32};
         arrays.push_back(array);
@@ -84,11 +82,8 @@ TEST(TreeChoice, KnowsWhichMaterialsAreUsed) {
     const std::uint32_t one = 3;
     const std::uint32_t nobodys = 2;
     const auto array = [&](std::uint32_t count, pt_column material) {
-        pt_sphere_array columns{};
-        columns.struct_size = sizeof columns;
-        columns.count = count;
-        columns.center = {center.data(), 12, PT_TYPE_FLOAT32};
-        columns.radius = {center.data(), 0, PT_TYPE_FLOAT32};
+        pt_sphere_array columns =
+            array_of(count, {center.data(), 12, PT_TYPE_FLOAT32}, {center.data(), 0, PT_TYPE_FLOAT32});
         columns.material = material;
         return columns;
     };
@@ -132,11 +127,7 @@ TEST(SphereSource, KnowsOpacitiesThatLetRaysPass) {
     const std::vector<float> center{0, 0, 0, 4, 0, 0, 8, 0, 0};
     const float radius = 1.0F;
     const auto read = [&](const std::vector<float> &opacities) {
-        pt_sphere_array array{};
-        array.struct_size = sizeof array;
-        array.count = 3;
-        array.center = {center.data(), 12, PT_TYPE_FLOAT32};
-        array.radius = {&radius, 0, PT_TYPE_FLOAT32};
+        pt_sphere_array array = array_of(3, {center.data(), 12, PT_TYPE_FLOAT32}, {&radius, 0, PT_TYPE_FLOAT32});
         array.opacity = {opacities.data(), opacities.size() == 1 ? 0U : 4U, PT_TYPE_FLOAT32};
         const pt::SphereSource source({}, {&array, 1});
         return std::pair(source.has_opacities(), source[1].opacity);

@@ -50,21 +50,6 @@ TEST(SphereTree, HasStepsThatSuitBallsAllInOnePoint) {
     EXPECT_LT(tree_of(spheres).grid().step, 1e-18);
 }
 
-TEST(SphereTree, NumbersLampsInTheScenesOrder) {
-    const std::vector<pt_sphere> spheres = heap(500, 0.0);
-    const pt::SphereTree tree = tree_of(spheres);
-    ASSERT_EQ(tree.lamp_materials(), std::vector<std::uint32_t>(50, 1));
-    const pt::gpu::TreeFrame frame = tree.frame(camera_at(glm::dvec3(0.0)));
-    for (std::uint32_t lamp = 0; lamp < 50; ++lamp) {
-        const glm::uvec4 &word = tree.sphere_words()[frame.first_lamp + lamp];
-        const pt_sphere &sphere = spheres[10 * lamp + 3];
-        EXPECT_EQ(held(tree, word.x).center, tree.grid().place({sphere.center[0], sphere.center[1], sphere.center[2]}));
-        EXPECT_EQ(word.y, 1U);
-        EXPECT_EQ(tree.sphere_words()[frame.first_surface + word.x / 4][static_cast<int>(word.x % 4)],
-                  pt::gpu::TREE_LAMP_BIT + lamp);
-    }
-}
-
 TEST(SphereTree, KeepsTheFirstOfTwins) {
     std::vector<pt_sphere> spheres = heap(100, 0.0);
     spheres[0].center[0] = 100; // 2^-22 of this distance is 2^7 steps.
@@ -162,28 +147,6 @@ TEST(SphereTree, HasWaysIfWhatIsLeftOutMoves) {
     one.end = {};
     spheres[0].motion[0] = 1.0;
     EXPECT_TRUE(has_ways(tree_with(one, spheres, {0, 100})));
-}
-
-// A sphere takes 20 bytes with its material. A node of 48 bytes has three spheres, or two spheres with empty children.
-TEST(SphereTree, TakesNoMoreThan48BytesASphere) {
-    std::vector<pt_sphere> spheres = heap(100'000, 0.0);
-    for (pt_sphere &sphere : spheres)
-        sphere.material = 0;
-    const std::size_t plain = tree_of(spheres).words().size() * sizeof(glm::uvec4);
-    EXPECT_LE(plain, 48U * spheres.size() + 1024);
-
-    std::vector<float> colors(3 * spheres.size(), 0.5F);
-    pt_sphere_array array{};
-    array.struct_size = sizeof array;
-    array.count = static_cast<std::uint32_t>(spheres.size());
-    array.center = {spheres[0].center, sizeof spheres[0], PT_TYPE_FLOAT64};
-    array.radius = {&spheres[0].radius, sizeof spheres[0], PT_TYPE_FLOAT64};
-    array.color = {colors.data(), 12, PT_TYPE_FLOAT32};
-    const pt::SphereTree colored = tree_of(pt::SphereSource({}, {&array, 1}));
-    EXPECT_EQ(colored.words().size() * sizeof(glm::uvec4), plain + 4 * spheres.size());
-    const pt::gpu::TreeFrame frame = colored.frame(camera_at(glm::dvec3(0.0)));
-    // sqrt(1/2) * 1023 = 723.4
-    EXPECT_EQ(colored.sphere_words()[frame.first_color + 777].z, 723U | 723U << 10 | 723U << 20);
 }
 
 // A sphere lies at (p - camera) step + shift. The error comes from rounding shift, which is about as long as the
