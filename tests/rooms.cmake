@@ -54,10 +54,8 @@ if(PT_SANITIZE)
       AdaptivePlan.CallsThatEndAnywhere*
       Comparison.EqualLight*
       Comparison.TheSmallestChange*
-      PixelSums.HaveTheValuesOfKernels
+      PixelSums.ValuesAreTheNearestFloats
       SphereOrder.GivesEach*
-      SphereOrder.ReadsTheBits*
-      SphereOrder.TellsHowFar*
       TreeCuts.OfMany*
   )
   list(JOIN large ":" large)
@@ -123,8 +121,7 @@ if(NOT PT_SANITIZE)
             geometry/tree_path_test.cpp
             geometry/tree_test.cpp
             kernel/scene_source_test.cpp
-            light/lamp_test.cpp
-            light/lamp_tree_choice_test.cpp
+            light/lamp_choice_test.cpp
             light/opacity_test.cpp
             light/random_light_test.cpp
             light/sampler_sobol_test.cpp

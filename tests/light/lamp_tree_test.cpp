@@ -128,25 +128,6 @@ TEST(LampTreeWords, NodesHoldTheirLamps) {
     }
 }
 
-TEST(LampTreeWords, PowersAddUpAndTheWeakestCounts) {
-    const pt::View seen = lamp_scenes::view_of(lamp_scenes::with_a_strong_one(200));
-    const pt::LampTreeShape shape(200);
-    double top = 0.0;
-    double lamps = 0.0;
-    for (std::uint64_t group = 0; group < shape.top_groups(); ++group)
-        for (int place = 0; place < 4; ++place)
-            top += static_cast<double>(held_node(seen, group, place).power);
-    std::uint32_t taken = 0;
-    for (std::uint64_t slot = 0; slot < shape.slots(); ++slot) {
-        const HeldNode leaf =
-            held_node(seen, shape.groups_above(shape.levels()) + slot / 4, static_cast<int>(slot % 4));
-        lamps += static_cast<double>(leaf.power);
-        taken += leaf.power > 0.0F ? 1 : 0;
-    }
-    EXPECT_NEAR(top, lamps, 1e-6 * lamps);
-    EXPECT_EQ(taken, 200U);
-}
-
 TEST(LampTreeFeature, DependsOnTheNumberOfLampsAlone) {
     const auto features = [](const pt::Scene &scene, std::uint32_t estimator = PT_ESTIMATOR_MIS) {
         return lamp_scenes::view_of(scene, lamp_scenes::camera(), estimator).features;

@@ -1,4 +1,5 @@
 #include "tests/support/light_in_double.h"
+#include "tests/support/scene_of.h"
 
 #include <pt/stats.h>
 
@@ -144,11 +145,8 @@ TEST_F(Opacity, OfColorsAndMotionsIsIndependent) {
     const auto passed = [&](const std::vector<Ball> &balls) {
         static constexpr std::array center{0.0, 0.0, 1.0};
         static constexpr float radius = 1.0F, opacity = 0.5F;
-        pt_sphere_array array{};
-        array.struct_size = sizeof array;
-        array.count = static_cast<std::uint32_t>(balls.size());
-        array.center = {center.data(), 0, PT_TYPE_FLOAT64};
-        array.radius = {&radius, 0, PT_TYPE_FLOAT32};
+        pt_sphere_array array =
+            array_of(balls.size(), {center.data(), 0, PT_TYPE_FLOAT64}, {&radius, 0, PT_TYPE_FLOAT32});
         array.opacity = {&opacity, 0, PT_TYPE_FLOAT32};
         array.motion = {balls[0].motion, sizeof(Ball), PT_TYPE_FLOAT64};
         array.color = {balls[0].color, sizeof(Ball), PT_TYPE_FLOAT32};

@@ -51,9 +51,7 @@ std::vector<pt::LampPiece> pieces_of(const std::vector<pt_sphere> &spheres, cons
     const pt_material materials[] = {{{0.5F, 0.5F, 0.5F}, {}, {}, 0.0F, 0},
                                      {{}, {}, {1.0F, 2.0F, 40.0F}, 0.0F, 0},
                                      {{0.5F, 0.5F, 0.5F}, {}, {}, 0.0F, PT_MATERIAL_HIDDEN_FROM_CAMERA}};
-    pt_scene scene = scene_of(materials, spheres, planes);
-    scene.sphere_arrays = arrays.data();
-    scene.sphere_array_count = static_cast<std::uint32_t>(arrays.size());
+    const pt_scene scene = scene_of(materials, spheres, planes, arrays);
     const pt::PreparedScene prepared = prepared_scene_of(checked_scene_of(scene), has_tree ? 1 : 1000);
     EXPECT_EQ(prepared.tree != nullptr, has_tree);
     return pt::small_lamps_in_view(prepared, *pt::projection_of(seen_by, 400, 200), 0, 200);
