@@ -40,31 +40,6 @@ TEST(GpuLayout, WhatTheSceneDoesNotUseIsNotInTheBuffer) {
     EXPECT_EQ(view.words.size(), 9U);
 }
 
-// Curved planes come before flat planes. A lamp whose radius is 2048 times its distance becomes a curved plane.
-TEST(GpuLayout, HugeSpheresArePlanesWithACurvature) {
-    pt::Scene scene = small_scene();
-    scene.spheres.push_back({{0, -1026, 1}, 1024, {0, 0, 0}, 0});
-    scene.spheres.push_back({{0, 0, 262147}, 262144, {0, 0, 0}, 2});
-    const pt::Camera camera = camera_at({0, 0, 1});
-    const pt::View view = view_from(scene, camera);
-    const pt::Features &features = view.features;
-    EXPECT_EQ(features[pt::gpu::ID_SPHERE_COUNT], 2U);
-    EXPECT_EQ(features[pt::gpu::ID_PLANE_COUNT], 3U);
-    EXPECT_EQ(features[pt::gpu::ID_LAMP_COUNT], 1U);
-    EXPECT_TRUE(features[pt::gpu::ID_CURVATURE]);
-
-    const std::vector<glm::vec4> &words = view.words;
-    ASSERT_EQ(words.size(), 5U * 4 + 2 + 3);
-    EXPECT_EQ(words[2], glm::vec4(0, 1, 0, 2));
-    EXPECT_EQ(words[3], glm::vec4(0, 0, -1, 2));
-    EXPECT_EQ(words[4], glm::vec4(0, 1, 0, 4));
-    EXPECT_EQ(words[5 + 3], glm::vec4(30, 60, 90, 60));
-    EXPECT_EQ(words[10 + 2], glm::vec4(glm::dvec4(0.5, 0.25, 0, 0) / std::numbers::pi));
-    EXPECT_EQ(words[22], glm::vec4(1.0F / 1024, 0, 0, 0));
-    EXPECT_EQ(words[23], glm::vec4(1.0F / 262144, 0, 0, 0));
-    EXPECT_EQ(words[24], glm::vec4(0));
-}
-
 TEST(GpuLayout, OtherSpheresKeepTheirCenter) {
     const pt::Material diffuse{{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0};
     const pt::Material lamp{{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0};
