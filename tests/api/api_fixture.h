@@ -1,5 +1,6 @@
 #pragma once
 
+#include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/image_target.h"
 #include "tests/support/scene_of.h"
@@ -26,24 +27,15 @@ inline pt_scene valid_scene() {
 }
 
 inline pt_camera valid_camera() {
-    pt_camera camera{};
-    camera.struct_size = sizeof camera;
-    camera.shutter_close = 1;
-    camera.target[2] = -1;
-    return camera;
+    return camera_at({0, 0, 0}, {0, 0, -1});
 }
 
 inline pt_render valid_render() {
-    pt_render render{};
-    render.struct_size = sizeof render;
-    render.width = width;
-    render.height = height;
-    render.max_path_length = 1;
-    return render;
+    return render_of(width, height, 1);
 }
 
 inline pt_accumulate_info samples(uint32_t count) {
-    return {sizeof(pt_accumulate_info), count, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
+    return accumulate_info(count);
 }
 
 inline pt_image tight_image(std::vector<float> &pixels) {
@@ -54,9 +46,7 @@ inline void set_all(pt_context *context) {
     const pt_scene scene = valid_scene();
     const pt_camera camera = valid_camera();
     const pt_render render = valid_render();
-    ASSERT_EQ(pt_set_scene(context, &scene), PT_OK) << pt_last_error(context);
-    ASSERT_EQ(pt_set_camera(context, &camera), PT_OK) << pt_last_error(context);
-    ASSERT_EQ(pt_set_render(context, &render), PT_OK) << pt_last_error(context);
+    set_picture(context, scene, camera, render);
 }
 
 class ApiTest : public ContextFixture {

@@ -1,5 +1,6 @@
 #include "tests/api/api_fixture.h"
 #include "tests/api/every_call.h"
+#include "tests/support/sized.h"
 
 #include <pt/accuracy.h>
 #include <pt/devices.h>
@@ -55,8 +56,7 @@ std::string create_outcome(const pt_create_info *info) {
 }
 
 pt_create_info valid_create() {
-    pt_create_info info{};
-    info.struct_size = sizeof info;
+    auto info = sized<pt_create_info>();
     info.device = std::getenv("PT_TEST_DEVICE");
     return info;
 }
@@ -67,6 +67,7 @@ TEST(Api, CreateNeedsAPlaceForTheContext) {
 }
 
 TEST(Api, CreateTakesDefaults) {
+    EXPECT_EQ(pt_version(), PT_VERSION);
     EXPECT_EQ(create_outcome(nullptr), "created");
 }
 
@@ -108,8 +109,7 @@ TEST_F(ApiTest, RefusesNullPointers) {
     refused(pt_get_warning(context(), nullptr), "warning");
     refused(pt_get_accuracy(context(), nullptr, nullptr), "count");
     accumulate(1);
-    pt_image no_data{};
-    no_data.struct_size = sizeof no_data;
+    auto no_data = sized<pt_image>();
     no_data.size_bytes = 1000000;
     refused(pt_readback(context(), &no_data), "image.data");
 }

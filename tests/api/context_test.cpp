@@ -1,5 +1,6 @@
 #include "tests/api/api_fixture.h"
 #include "tests/support/image_target.h"
+#include "tests/support/scene_of.h"
 
 #include <pt/devices.h>
 
@@ -183,7 +184,7 @@ struct Progress {
 TEST_F(ApiTest, ProgressRisesToOneOnTheCallingThread) {
     set_all();
     Progress progress;
-    const pt_accumulate_info info{sizeof info, 5000, &Progress::call, &progress, 0, 0, 0, nullptr, 0, 0};
+    const pt_accumulate_info info = accumulate_info(5000, 0.0, &Progress::call, &progress);
     ASSERT_EQ(pt_accumulate(context(), &info), PT_OK) << message();
     ASSERT_FALSE(progress.fractions.empty());
     EXPECT_TRUE(std::is_sorted(progress.fractions.begin(), progress.fractions.end()));
@@ -222,16 +223,8 @@ TEST_F(ApiTest, TheErrorIsKnownFrom16Samples) {
 
 TEST_F(ApiTest, ProgressThatThrowsIsAnErrorThatKeepsTheFilmWhole) {
     set_all();
-    const pt_accumulate_info info{sizeof info,
-                                  1U << 30,
-                                  [](void *, double) -> int32_t { throw std::runtime_error("thrown by a callback"); },
-                                  nullptr,
-                                  0,
-                                  0,
-                                  0,
-                                  nullptr,
-                                  0,
-                                  0};
+    const pt_accumulate_info info = accumulate_info(
+        1U << 30, 0.0, [](void *, double) -> int32_t { throw std::runtime_error("thrown by a callback"); });
     expect_failure(pt_accumulate(context(), &info), PT_ERROR_INTERNAL, "thrown by a callback");
     const uint32_t kept = stats().sample_count;
     accumulate(2);

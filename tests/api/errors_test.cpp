@@ -1,5 +1,6 @@
 #include "tests/api/api_fixture.h"
 #include "tests/support/scene_of.h"
+#include "tests/support/sized.h"
 
 #include <pt/errors.h>
 
@@ -13,8 +14,7 @@ namespace api {
 namespace {
 
 pt_broken_rule rule_of(const pt_context *context, uint32_t index) {
-    pt_broken_rule rule{};
-    rule.struct_size = sizeof rule;
+    auto rule = sized<pt_broken_rule>();
     pt_get_broken_rule(context, index, &rule);
     return rule;
 }
@@ -140,6 +140,7 @@ TEST_F(ErrorsTest, KeepEightAndCountAll) {
     EXPECT_EQ(pt_get_broken_rule(context(), 0, nullptr), 20U);
     EXPECT_EQ(rule_of(context(), 7).index, 7);
     EXPECT_EQ(rule_of(context(), 8).subject, nullptr);
+    EXPECT_TRUE(message().ends_with("\nspheres[7].radius = -1: must be > 0\n... and 12 more")) << message();
 }
 
 TEST_F(ErrorsTest, StayAsLongAsTheMessage) {
@@ -186,7 +187,7 @@ TEST_F(ErrorsTest, BelongToWhoMayLookAtThem) {
         found.refused = pt_get_broken_rule(found.context, 0, nullptr);
         return 1;
     };
-    const pt_accumulate_info info{sizeof info, 1, look, &seen, 0, 0, 0, nullptr, 0, 0};
+    const pt_accumulate_info info = accumulate_info(1, 0.0, look, &seen);
     EXPECT_GE(pt_accumulate(context(), &info), PT_OK) << message();
     EXPECT_EQ(seen.before, 1U);
     EXPECT_EQ(seen.elsewhere, 0U);
@@ -200,8 +201,7 @@ TEST(Errors, WithoutAContextBelongToTheirThread) {
         EXPECT_EQ(pt_get_broken_rule(nullptr, 0, nullptr), 0U);
         EXPECT_STREQ(pt_last_error(nullptr), "");
     }).join();
-    pt_create_info info{};
-    info.struct_size = sizeof info;
+    auto info = sized<pt_create_info>();
     info.device = "999";
     pt_context *context = nullptr;
     EXPECT_EQ(pt_create(&info, &context), PT_ERROR_NO_DEVICE);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tests/api/api_fixture.h"
+#include "tests/support/sized.h"
 
 #include <pt/accuracy.h>
 #include <pt/async.h>
@@ -29,18 +30,13 @@ inline Outcomes outcomes_of_every_call(pt_context *context) {
     const pt_accumulate_info one = samples(1);
     std::vector<float> pixels(width * height * 3);
     const pt_image image = tight_image(pixels);
-    pt_image mapped{};
-    mapped.struct_size = sizeof mapped;
+    auto mapped = sized<pt_image>();
     void *data = nullptr;
-    pt_buffer_image buffer_image{};
-    buffer_image.struct_size = sizeof buffer_image;
+    auto buffer_image = sized<pt_buffer_image>();
     pt_device_info device{};
-    pt_stats stats{};
-    stats.struct_size = sizeof stats;
-    pt_error_estimate error{};
-    error.struct_size = sizeof error;
-    pt_broken_rule warning{};
-    warning.struct_size = sizeof warning;
+    auto stats = sized<pt_stats>();
+    auto error = sized<pt_error_estimate>();
+    auto warning = sized<pt_broken_rule>();
     std::uint32_t count = 0;
     const std::map<std::string, std::function<pt_result()>> calls = {
         {"pt_get_context_device", [&] { return pt_get_context_device(context, &device); }},

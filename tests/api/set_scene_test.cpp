@@ -38,9 +38,7 @@ struct Cloud {
     // The returned scene points into this object.
     pt_scene scene() {
         array.center = {centers.data(), 12, PT_TYPE_FLOAT32};
-        pt_scene scene = scene_of(materials, {&lamp, 1}, {});
-        scene.sphere_arrays = &array;
-        scene.sphere_array_count = 1;
+        pt_scene scene = scene_of(materials, {&lamp, 1}, {}, {&array, 1});
         return scene;
     }
 
@@ -77,11 +75,7 @@ protected:
     }
 
     static void set_view(pt_context *on) {
-        pt_camera camera{};
-        camera.struct_size = sizeof camera;
-        camera.shutter_close = 1;
-        camera.position[1] = 0.5;
-        camera.position[2] = 4;
+        const pt_camera camera = camera_at({0, 0.5, 4}, {0, 0, 0});
         const pt_render render = render_of(picture_width, picture_height, 3);
         ASSERT_EQ(pt_set_camera(on, &camera), PT_OK) << pt_last_error(on);
         ASSERT_EQ(pt_set_render(on, &render), PT_OK) << pt_last_error(on);

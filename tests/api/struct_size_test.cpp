@@ -1,4 +1,7 @@
 #include "tests/api/api_fixture.h"
+#include "tests/support/image_target.h"
+#include "tests/support/scene_of.h"
+#include "tests/support/sized.h"
 
 #include <algorithm>
 #include <cstring>
@@ -101,11 +104,7 @@ TEST_F(StructSizeTest, Scene) {
     scene.planes = &plane;
     const float center[3] = {1, 2, 3};
     const float radius = 4;
-    pt_sphere_array array{};
-    array.struct_size = sizeof array;
-    array.count = 1;
-    array.center = {center, 12, PT_TYPE_FLOAT32};
-    array.radius = {&radius, 4, PT_TYPE_FLOAT32};
+    pt_sphere_array array = array_of(1, {center, 12, PT_TYPE_FLOAT32}, {&radius, 4, PT_TYPE_FLOAT32});
     scene.sphere_arrays = &array;
     scene.sphere_array_count = 1;
     EXPECT_EQ(call(scene).first, PT_OK) << message();
@@ -146,7 +145,7 @@ TEST_F(StructSizeTest, AccumulateInfo) {
     set_all();
     const auto call = [&](const pt_accumulate_info &info) { return outcome(pt_accumulate(context(), &info)); };
     const pt_progress_fn go_on = [](void *, double) -> int32_t { return 0; };
-    const pt_accumulate_info info{sizeof info, 1, go_on, nullptr, 1e-9, 0, 0, nullptr, 0, 0};
+    const pt_accumulate_info info = accumulate_info(1, 1e-9, go_on);
     EXPECT_EQ(call(info).first, PT_OK) << message();
     EXPECT_EQ(misread_sizes(info, call), none);
     expect_sizes_heeded(info, "accumulate", call);
@@ -158,10 +157,7 @@ TEST_F(StructSizeTest, Image) {
     const auto call = [&](const pt_image &image) { return outcome(pt_readback(context(), &image)); };
     std::vector<float> pixels(width * height * 4);
     pt_image image = image_target(pixels, PT_QUANTITY_STANDARD_ERROR, width * 16);
-    image.x = 1;
-    image.y = 2;
-    image.width = 3;
-    image.height = 1;
+    set_part(image, {1, 2, 3, 1});
     image.format = PT_FORMAT_RGBA32F;
     EXPECT_EQ(call(image).first, PT_OK) << message();
     EXPECT_EQ(misread_sizes(image, call), none);
@@ -176,8 +172,7 @@ TEST(StructSize, CreateInfo) {
         return Outcome{result, result < 0 ? pt_last_error(nullptr) : ""};
     };
     const pt_log_fn ignore = [](void *, int32_t, const char *) {};
-    pt_create_info info{};
-    info.struct_size = sizeof info;
+    auto info = sized<pt_create_info>();
     info.device = "cpu,no such device";
     info.log = ignore;
     info.submit_milliseconds = 2000;

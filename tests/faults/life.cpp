@@ -6,6 +6,7 @@
 #include "tests/support/image_target.h"
 #include "tests/support/scene_of.h"
 #include "tests/support/shared_context.h"
+#include "tests/support/sized.h"
 
 #include <pt/async.h>
 #include <pt/film.h>
@@ -37,11 +38,7 @@ struct Scene {
 };
 
 pt_camera camera() {
-    pt_camera camera{};
-    camera.struct_size = sizeof camera;
-    camera.shutter_close = 1;
-    camera.target[2] = -1;
-    return camera;
+    return camera_at({0, 0, 0}, {0, 0, -1});
 }
 
 pt_render render() {
@@ -129,8 +126,7 @@ void Life::tell() {
     look("pt_get_devices, count", [&] { return pt_get_devices(nullptr, &count); });
     look("pt_get_devices", [&] { return pt_get_devices(devices.data(), &count); });
 
-    pt_create_info create{};
-    create.struct_size = sizeof create;
+    auto create = sized<pt_create_info>();
     create.submit_milliseconds = setting_.submit_milliseconds;
     create.load_kernels = &no_kernels;
     create.store_kernels = &forget_kernels;
@@ -163,8 +159,7 @@ void Life::tell() {
     accumulate_to("", 16, 0.0);
     accumulate_to("pt_accumulate, to a target", 18, 1e-6);
     look("pt_get_error_estimate", [&] {
-        pt_error_estimate error{};
-        error.struct_size = sizeof error;
+        auto error = sized<pt_error_estimate>();
         return pt_get_error_estimate(context_, &error);
     });
     look("pt_get_accuracy", [&] {
@@ -229,8 +224,7 @@ void Life::call(const std::string &step, const Function &function, const std::fu
 
 // A call that fails keeps its complete samples. If memory is short, several devices may keep no samples.
 void Life::accumulate_to(const std::string &step, uint32_t sample_count, double target_error, Accumulate accumulate) {
-    pt_accumulate_info info{};
-    info.struct_size = sizeof info;
+    auto info = sized<pt_accumulate_info>();
     info.sample_count = sample_count - state().sample_count;
     info.progress = &go_on;
     info.target_error = target_error;
@@ -259,8 +253,7 @@ void Life::readback(const std::string &step, uint32_t quantity) {
 }
 
 void Life::map_image(const std::string &step) {
-    pt_image source{};
-    source.struct_size = sizeof source;
+    auto source = sized<pt_image>();
     void *data = nullptr;
     uint64_t size_bytes = 0;
     look(step, [&] { return pt_map_image(context_, &source, &data, &size_bytes); });
@@ -274,8 +267,7 @@ void Life::read_of_scene(const std::string &step, uint32_t quantity) {
     constexpr uint32_t unwritten = PT_NO_OBJECT - 1;
     const bool is_whole = quantity == PT_QUANTITY_OBJECT;
     std::vector<uint32_t> words(std::size_t{width} * rows_ * (is_whole ? 1 : 3), unwritten);
-    pt_image target{};
-    target.struct_size = sizeof target;
+    auto target = sized<pt_image>();
     target.quantity = quantity;
     target.format = is_whole ? PT_FORMAT_R32UI : PT_FORMAT_RGB32F;
     target.data = words.data();
@@ -324,9 +316,7 @@ void Life::destroy() {
 void Life::expect_lost() {
     const std::string message = pt_last_error(context_);
     const pt_camera the_camera = camera();
-    const pt_accumulate_info info{sizeof info, 1, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
-    pt_image image{};
-    image.struct_size = sizeof image;
+    const pt_accumulate_info info = accumulate_info(1);
     for (int i = 0; i < 2; ++i) {
         EXPECT_EQ(pt_set_camera(context_, &the_camera), PT_ERROR_DEVICE_LOST);
         EXPECT_EQ(pt_last_error(context_), message);
@@ -338,8 +328,7 @@ void Life::expect_lost() {
 Life::State Life::state() {
     if (!context_)
         return {};
-    pt_stats stats{};
-    stats.struct_size = sizeof stats;
+    auto stats = sized<pt_stats>();
     EXPECT_EQ(pt_get_stats(context_, &stats), PT_OK) << pt_last_error(context_);
     return {stats.sample_count, stats.rejected_samples};
 }
@@ -364,7 +353,7 @@ ExpectedImages undisturbed_images() {
     set_picture(context, the_scene, the_camera, the_render);
     ExpectedImages images;
     for (uint32_t count = 1; count <= 18; ++count) {
-        const pt_accumulate_info info{sizeof info, 1, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
+        const pt_accumulate_info info = accumulate_info(1);
         EXPECT_EQ(pt_accumulate(context, &info), PT_OK) << pt_last_error(context);
         for (const uint32_t quantity : {PT_QUANTITY_RADIANCE, PT_QUANTITY_STANDARD_ERROR}) {
             Image image(std::size_t{width} * height * 3);
@@ -375,7 +364,7 @@ ExpectedImages undisturbed_images() {
     }
     images.film = film_of(context);
     the_render.first_sample = 1;
-    const pt_accumulate_info others{sizeof others, other_film_end - 1, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
+    const pt_accumulate_info others = accumulate_info(other_film_end - 1);
     EXPECT_EQ(pt_set_render(context, &the_render), PT_OK) << pt_last_error(context);
     EXPECT_EQ(pt_accumulate(context, &others), PT_OK) << pt_last_error(context);
     images.other_film = film_of(context);

@@ -1,19 +1,18 @@
 #include "tests/faults/clock.h"
 #include "tests/faults/vulkan_calls.h"
-#include "tests/support/image_target.h"
-#include "tests/support/scene_of.h"
+#include "tests/support/context_calls.h"
+#include "tests/support/context_fixture.h"
 #include "tests/support/shared_context.h"
+#include "tests/support/sized.h"
 
 #include <pt/async.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cstdint>
 #include <iterator>
-#include <memory>
 #include <vector>
 
 namespace {
@@ -28,24 +27,11 @@ struct Way {
     bool by_tile;
 };
 
-constexpr Way ways[] = {{false, 1, 50, 0, false},   {false, 2, 1, 0, false}, {false, 1, 50, 0.05, false},
-                        {false, 1, 50, 0, true},    {true, 1, 50, 0, false}, {true, 1, 1, 0, false},
-                        {true, 2, 50, 0.05, false}, {true, 1, 50, 0, true}};
+constexpr Way ways[] = {{false, 2, 1, 0, false}, {false, 1, 50, 0.05, false}, {false, 1, 50, 0, true},
+                        {true, 1, 1, 0, false},  {true, 2, 50, 0.05, false},  {true, 1, 50, 0, true}};
 
 constexpr uint32_t polled_size = 48;
-
-struct PolledScene {
-    std::array<pt_material, 2> materials = {
-        {{{0.5F, 0.5F, 0.5F}, {0.2F, 0.2F, 0.2F}, {0, 0, 0}, 20, 0}, {{0, 0, 0}, {0, 0, 0}, {9, 9, 9}, 0, 0}}};
-    std::array<pt_sphere, 3> spheres = {{{{0, 1, -4}, 1, {0, 0, 0}, 0, 0},
-                                         {{0, 1, -4}, 1 - 1e-5, {0, 0, 0}, 0, 0},
-                                         {{2, 4, -3}, 0.5, {0, 0, 0}, 1, 0}}};
-    std::array<pt_plane, 1> planes = {{{{0, 1, 0}, 0, 0, 0}}};
-
-    pt_scene scene() const { return scene_of(materials, spheres, planes); }
-};
-
-constexpr double places[][3] = {{0, 1, 0}, {0, 0, 0}, {0, -1, 0}, {0, 1, -4.5}, {0, 1, -3}, {0, 1.5, 0}};
+constexpr double places[][3] = {{0, 0, 1}, {0, -1, 1}, {0, 6, 1}, {-2, -2, -12}, {-2, -2, -10}};
 
 long pipelines() {
     const auto live = live_objects();
@@ -53,33 +39,22 @@ long pipelines() {
     return found == live.end() ? 0 : found->second;
 }
 
+// Other places of the camera need other kernels: within the ball, below the floor, or without known sides.
 void expect_nothing_built_by_polls(const Way &way) {
     pose_as_gpu(way.gpu);
-    pt_create_info info{};
-    info.struct_size = sizeof info;
+    auto info = sized<pt_create_info>();
     info.submit_milliseconds = way.submit_milliseconds;
     pt_context *made = nullptr;
     ASSERT_EQ(create_shared(way.device_count, info, &made, way.gpu, 16), PT_OK) << pt_last_error(nullptr);
-    const std::unique_ptr<pt_context, void (*)(pt_context *)> context(made, &pt_destroy);
-    const PolledScene scene;
-    const pt_scene the_scene = scene.scene();
-    const pt_render render = render_of(polled_size, polled_size, 3);
-    ASSERT_EQ(pt_set_scene(made, &the_scene), PT_OK) << pt_last_error(made);
-    ASSERT_EQ(pt_set_render(made, &render), PT_OK) << pt_last_error(made);
+    const Context context(made);
+    set_coursework(made, render_of(polled_size, polled_size, 3));
+    ASSERT_EQ(pt_prepare(made), PT_OK) << pt_last_error(made);
     const std::vector<uint32_t> tiles((polled_size / 8) * (polled_size / 8), 40);
     for (const auto &place : places) {
-        pt_camera camera{};
-        camera.struct_size = sizeof camera;
-        camera.shutter_close = 1;
+        pt_camera camera = CourseworkScene::camera();
         std::copy(std::begin(place), std::end(place), camera.position);
-        camera.target[1] = 1;
-        camera.target[2] = -6;
         ASSERT_EQ(pt_set_camera(made, &camera), PT_OK) << pt_last_error(made);
-        if (&place == std::begin(places)) {
-            EXPECT_EQ(pt_prepare(made), PT_OK) << pt_last_error(made);
-        }
-        pt_accumulate_info samples{};
-        samples.struct_size = sizeof samples;
+        auto samples = sized<pt_accumulate_info>();
         samples.sample_count = way.by_tile ? 40 : 1U << 20;
         samples.target_error = way.target_error;
         samples.tile_samples = way.by_tile ? tiles.data() : nullptr;

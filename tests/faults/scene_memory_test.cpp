@@ -36,12 +36,7 @@ struct ManySpheres {
         array.material = {&material, 0, PT_TYPE_UINT32};
     }
 
-    pt_scene scene() {
-        pt_scene scene = scene_of(materials, {}, {});
-        scene.sphere_array_count = 1;
-        scene.sphere_arrays = &array;
-        return scene;
-    }
+    pt_scene scene() { return scene_of(materials, {}, {}, {&array, 1}); }
 };
 
 struct Taken {

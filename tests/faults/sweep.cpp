@@ -2,6 +2,7 @@
 
 #include "tests/faults/allocations.h"
 #include "tests/faults/vulkan_calls.h"
+#include "tests/support/sized.h"
 
 #include <gtest/gtest.h>
 
@@ -12,8 +13,7 @@ namespace {
 // A long error message enlarges the thread's message buffer once, so that later messages do not allocate.
 void keep_a_long_message() {
     const std::string no_device(1000, '?');
-    pt_create_info create{};
-    create.struct_size = sizeof create;
+    auto create = sized<pt_create_info>();
     create.device = no_device.c_str();
     pt_context *context = nullptr;
     EXPECT_EQ(pt_create(&create, &context), PT_ERROR_NO_DEVICE);
