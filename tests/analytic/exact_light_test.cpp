@@ -36,10 +36,7 @@ TEST_F(ExactLight, FromASphereItselfItsFarSideIsSeen) {
                                          {{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0, 0}};
         const pt_sphere spheres[] = {{{0, 0, -1}, 1, {0, 0, 0}, 0, 0}, {{0, 0, -1}, 50, {0, 0, 0}, 1, 0}};
         const pt_scene scene = scene_of(materials, spheres, {});
-        pt_camera camera{};
-        camera.struct_size = sizeof camera;
-        camera.shutter_close = 1;
-        camera.target[2] = -1;
+        const pt_camera camera = camera_at({0, 0, 0}, {0, 0, -1});
         for (const float value : image_of(scene, camera, render_of(16, 16, 1), 16).radiance)
             ASSERT_EQ(value, emission);
     }

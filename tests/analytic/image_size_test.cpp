@@ -29,11 +29,7 @@ Image render_sphere(const Shape &shape, double radius, const auto &image_of) {
     const pt_material material{{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0, 0};
     const pt_sphere sphere{{1, 0.5, -4}, radius, {0, 0, 0}, 0, 0};
     const pt_scene scene = scene_of({&material, 1}, {&sphere, 1}, {});
-    pt_camera camera{};
-    camera.struct_size = sizeof camera;
-    camera.position[2] = 1;
-    camera.vertical_fov = 2.0 * std::atan(0.5 * shape.window_height);
-    return image_of(scene, camera);
+    return image_of(scene, camera_at({0, 0, 1}, {0, 0, 0}, 2.0 * std::atan(0.5 * shape.window_height)));
 }
 
 std::uint32_t samples_for(const Shape &shape) {

@@ -97,9 +97,7 @@ protected:
 
     Context shared(std::uint32_t devices, std::uint32_t submit_milliseconds, bool like_gpus) {
         return create_context([&](pt_create_info &info) { info.submit_milliseconds = submit_milliseconds; },
-                              [&](const pt_create_info *info, pt_context **context) {
-                                  return create_shared(devices, *info, context, like_gpus);
-                              });
+                              shared_by(devices, like_gpus));
     }
 
     std::string device_name() const {

@@ -2,6 +2,7 @@
 #include "tests/support/context_fixture.h"
 #include "tests/support/render_image.h"
 #include "tests/support/shared_context.h"
+#include "tests/support/sized.h"
 
 #include <gtest/gtest.h>
 
@@ -147,8 +148,7 @@ protected:
 
     Image image_of(const InvarianceScene &of) {
         Image image = render(context(), of);
-        pt_stats stats{};
-        stats.struct_size = sizeof stats;
+        auto stats = sized<pt_stats>();
         EXPECT_EQ(pt_get_stats(context(), &stats), PT_OK) << pt_last_error(context());
         EXPECT_EQ(stats.features, PT_FEATURE_LAMPS | PT_FEATURE_GLOSS | PT_FEATURE_MOTION | PT_FEATURE_LARGE |
                                       (GetParam() ? PT_FEATURE_TREE : 0));

@@ -132,11 +132,7 @@ TEST_F(StatedError, OfLampsBelowAPixelIsThatByManySamples) {
         lamps.push_back({{x * pixel, y * pixel, -1.0}, std::sqrt(1.0 / 70.0 / 3.14159) * pixel, {}, 0, 0});
     }
     const pt_scene scene = scene_of(lamp, lamps, {});
-    pt_camera camera{};
-    camera.struct_size = sizeof camera;
-    camera.shutter_close = 1;
-    camera.target[2] = -1.0;
-    camera.vertical_fov = fov;
+    const pt_camera camera = camera_at({0, 0, 0}, {0, 0, -1}, fov);
     ASSERT_EQ(pt_set_scene(context(), &scene), PT_OK) << pt_last_error(context());
     ASSERT_EQ(pt_set_camera(context(), &camera), PT_OK) << pt_last_error(context());
     const auto image_of = [&](uint32_t seed, uint32_t samples) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lib/vulkan/device_choice.h"
+#include "tests/support/sized.h"
 
 #include <pt/pt.h>
 #include <pt/vulkan.h>
@@ -58,8 +59,7 @@ public:
     std::uint32_t family() const { return family_; }
 
     pt_vulkan handles() const {
-        pt_vulkan vulkan{};
-        vulkan.struct_size = sizeof vulkan;
+        auto vulkan = sized<pt_vulkan>();
         vulkan.queue_family = family_;
         vulkan.instance = static_cast<VkInstance>(*instance_);
         vulkan.physical_device = static_cast<VkPhysicalDevice>(*physical_device_);

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -49,48 +50,41 @@ TEST(DeviceChoiceTest, TheBestIsTheFirstOfTheBestKind) {
     EXPECT_EQ(error_of([&] { pt::vulkan::choose_device(devices, ""); }).code(), PT_ERROR_NO_DEVICE);
 }
 
-TEST(DeviceChoiceTest, AnIndexIsTakenAsItIs) {
-    EXPECT_EQ(pt::vulkan::choose_device(workstation, "0"), 0U);
-    EXPECT_EQ(pt::vulkan::choose_device(workstation, "06"), 6U);
-    for (const std::string outside : {"7", "4090", "99999999999999999999"}) {
-        const pt::Error error = error_of([&] { pt::vulkan::choose_device(workstation, outside); });
-        EXPECT_EQ(error.code(), PT_ERROR_NO_DEVICE);
-        EXPECT_TRUE(names(error, outside) && names(error, "below 7")) << error.what();
-    }
-    const pt::Error error = error_of([] { pt::vulkan::choose_device(workstation, "4"); });
-    EXPECT_EQ(error.code(), PT_ERROR_NO_DEVICE);
-    EXPECT_TRUE(names(error, "GeForce 9800") && names(error, "Vulkan 1.2 is needed")) << error.what();
-}
-
-TEST(DeviceChoiceTest, AWordNamesAKind) {
-    EXPECT_EQ(pt::vulkan::choose_device(workstation, "cpu"), 1U);
-    EXPECT_EQ(pt::vulkan::choose_device(workstation, "gpu"), 5U);
+TEST(DeviceChoiceTest, AnIndexAKindAUuidOrAPartOfANameChoosesOne) {
+    const struct {
+        const char *wish;
+        std::size_t expected;
+    } cases[] = {{"0", 0},
+                 {"06", 6},
+                 {"cpu", 1},
+                 {"gpu", 5},
+                 {"LLVM", 1},
+                 {"rtx 40", 6},
+                 {"radeon", 5},
+                 {"GeForce", 6},
+                 {"12121212-1212-1212-1212-121212121212", 2},
+                 {"11111111111111111111111111111111", 1},
+                 {"ABABABABABABABABABABABABABABABAB", 5}};
+    for (const auto &[wish, expected] : cases)
+        EXPECT_EQ(pt::vulkan::choose_device(workstation, wish), expected) << wish;
     EXPECT_EQ(pt::vulkan::choose_device(std::span(workstation).first(4), "gpu"), 3U);
-    EXPECT_EQ(error_of([] { pt::vulkan::choose_device(std::span(workstation).first(2), "gpu"); }).code(),
-              PT_ERROR_NO_DEVICE);
-    EXPECT_EQ(error_of([] { pt::vulkan::choose_device(std::span(workstation).last(2), "cpu"); }).code(),
-              PT_ERROR_NO_DEVICE);
 }
 
-TEST(DeviceChoiceTest, AUuidNamesOneDevice) {
-    EXPECT_EQ(pt::vulkan::choose_device(workstation, "12121212-1212-1212-1212-121212121212"), 2U);
-    EXPECT_EQ(pt::vulkan::choose_device(workstation, std::string(32, '1')), 1U);
-    EXPECT_EQ(pt::vulkan::choose_device(workstation, "ABABABABABABABABABABABABABABABAB"), 5U);
-    EXPECT_EQ(error_of([] { pt::vulkan::choose_device(workstation, std::string(32, 'c')); }).code(),
-              PT_ERROR_NO_DEVICE);
-}
-
-TEST(DeviceChoiceTest, APartOfANameNamesTheBestThatHasIt) {
-    EXPECT_EQ(pt::vulkan::choose_device(workstation, "LLVM"), 1U);
-    EXPECT_EQ(pt::vulkan::choose_device(workstation, "rtx 40"), 6U);
-    EXPECT_EQ(pt::vulkan::choose_device(workstation, "radeon"), 5U);
-    EXPECT_EQ(pt::vulkan::choose_device(workstation, "GeForce"), 6U);
-}
-
-TEST(DeviceChoiceTest, ARefusalHasTheReasonAgainstEveryDevice) {
-    const pt::Error error = error_of([] { pt::vulkan::choose_device(workstation, "Voodoo"); });
-    EXPECT_EQ(error.code(), PT_ERROR_NO_DEVICE);
-    EXPECT_TRUE(names(error, "Voodoo")) << error.what();
+TEST(DeviceChoiceTest, ARefusalSaysWhatIsThere) {
+    const auto refusal = [](std::span<const pt_device_info> devices, const std::string &wish) {
+        const pt::Error error = error_of([&] { pt::vulkan::choose_device(devices, wish); });
+        EXPECT_EQ(error.code(), PT_ERROR_NO_DEVICE) << wish;
+        EXPECT_TRUE(names(error, wish)) << error.what();
+        return error;
+    };
+    for (const char *const outside : {"7", "4090", "99999999999999999999"})
+        EXPECT_TRUE(names(refusal(workstation, outside), "below 7"));
+    EXPECT_TRUE(names(refusal(workstation, "4"), "GeForce 9800"));
+    EXPECT_TRUE(names(refusal(workstation, "4"), "Vulkan 1.2 is needed"));
+    refusal(std::span(workstation).first(2), "gpu");
+    refusal(std::span(workstation).last(2), "cpu");
+    refusal(workstation, std::string(32, 'c'));
+    const pt::Error error = refusal(workstation, "Voodoo");
     for (const pt_device_info &device : workstation)
         EXPECT_TRUE(names(error, device.name)) << error.what();
     EXPECT_TRUE(names(error, "GeForce 9800: Vulkan 1.2 is needed")) << error.what();

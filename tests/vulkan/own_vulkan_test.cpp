@@ -2,7 +2,9 @@
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/support/render_image.h"
+#include "tests/support/scene_of.h"
 #include "tests/support/shared_context.h"
+#include "tests/support/sized.h"
 #include "tests/vulkan/caller_vulkan.h"
 
 #include <pt/async.h>
@@ -59,8 +61,7 @@ protected:
     const CallersOwnVulkan &caller() const { return *caller_; }
 
     static pt_create_info info_of(const pt_vulkan &vulkan) {
-        pt_create_info info{};
-        info.struct_size = sizeof info;
+        auto info = sized<pt_create_info>();
         info.vulkan = &vulkan;
         return info;
     }
@@ -99,8 +100,7 @@ protected:
 
 TEST_F(OwnVulkanTest, GivesTheBitsOfADeviceOfItsOwn) {
     const Context borrowing = context_on(caller().handles());
-    pt_create_info own{};
-    own.struct_size = sizeof own;
+    auto own = sized<pt_create_info>();
     own.device = std::getenv("PT_TEST_DEVICE");
     pt_context *created = nullptr;
     ASSERT_EQ(pt_create(&own, &created), PT_OK) << pt_last_error(nullptr);
@@ -156,7 +156,7 @@ TEST_F(OwnVulkanTest, TheQueueIsFreeWhileTheContextCallsBack) {
     const Context context = context_on(vulkan);
     const std::vector<float> image = render(context.get(), 0);
     const std::uint64_t locks = observer.mutex.locks;
-    const pt_accumulate_info more{sizeof more, samples, &Observer::progress, &observer, 0, 0, 0, nullptr, 0, 0};
+    const pt_accumulate_info more = accumulate_info(samples, 0.0, &Observer::progress, &observer);
     EXPECT_EQ(pt_accumulate(context.get(), &more), PT_OK);
     const pt_stats stats = stats_of(context.get());
     EXPECT_GT(observer.calls, 0);
@@ -191,13 +191,13 @@ TEST_F(OwnVulkanTest, LooksAtATargetAreNoSubmissions) {
     render_image(created, coursework.scene(), CourseworkScene::camera(), render_of(own_width, own_height, 3), samples);
     const std::uint64_t submissions = stats_of(created).submit_count;
     const std::uint64_t locks = mutex.locks;
-    const pt_accumulate_info to_a_target{sizeof to_a_target, 4096, nullptr, nullptr, 0.1, 0, 0, nullptr, 0, 0};
+    const pt_accumulate_info to_a_target = accumulate_info(4096, 0.1);
     ASSERT_EQ(pt_accumulate(created, &to_a_target), PT_TARGET_REACHED) << pt_last_error(created);
     const std::uint64_t reached = mutex.locks;
     EXPECT_GT(stats_of(created).sample_count, 20U) << "several looks";
     EXPECT_EQ(reached - locks, stats_of(created).submit_count - submissions);
     EXPECT_EQ(mutex.locks, reached) << "it is known";
-    const pt_accumulate_info eight{sizeof eight, 8, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
+    const pt_accumulate_info eight = accumulate_info(8);
     ASSERT_EQ(pt_accumulate(created, &eight), PT_OK) << pt_last_error(created);
     const std::uint64_t before = mutex.locks;
     EXPECT_GT(error_of(created).relative_rmse, 0.0);
@@ -205,8 +205,7 @@ TEST_F(OwnVulkanTest, LooksAtATargetAreNoSubmissions) {
 }
 
 TEST_F(OwnVulkanTest, HandlesMustBeThere) {
-    pt_vulkan vulkan{};
-    vulkan.struct_size = sizeof vulkan;
+    auto vulkan = sized<pt_vulkan>();
     vulkan.unlock_queue = &QueueMutex::unlock;
     EXPECT_EQ(refusal(vulkan), "PT_ERROR_INVALID_ARGUMENT: vulkan.instance = NULL: must not be NULL\n"
                                "vulkan.physical_device = NULL: must not be NULL\n"
