@@ -57,14 +57,16 @@ vec4 direction_numbers(SampleKey branch, uint begin, uint count)
 }
 
 // Returns the number that decides which surfaces a vertex's ray passes (shaders/README.md, section 8). Vertex 0 is the
-// camera.
+// camera. Each branch has its own lattice, because only one has the shadow ray to a lamp.
 uint opacity_number(SampleKey branch, uint vertex)
 {
     const uint first_block = 1u << 31; // above the blocks of all paths
-    uint block = first_block + vertex;
+    const uint branches = vertex == 0u ? 1u : BRANCH_COUNT;
+    uint block = first_block + vertex * BRANCH_COUNT + branch.sample_index % branches;
     if (SAMPLER == SAMPLER_RANDOM)
         return sample_words(branch, block).x;
-    uint number = (bitfieldReverse(branch.sample_index) + branch.shift.w + branch.seed.y) * odd_number(block);
+    uint sample_index = branch.sample_index / branches;
+    uint number = (bitfieldReverse(sample_index) + branch.shift.w + branch.seed.y) * odd_number(block);
     // The low bits choose a lattice of opacities. They stay the same for 16 samples of a pixel.
     return number ^ (number >> 16u & TREE_OPACITY_BITS);
 }

@@ -52,11 +52,11 @@ bool has_known_side(const CurvedPlane &plane) {
 }
 
 // These counts need the least time for a given error. Empirical.
-std::uint32_t branches_among(std::size_t sphere_count, std::uint32_t max_path_length) {
+std::uint32_t branches_among(std::size_t sphere_count, std::uint32_t max_path_length, bool gloss) {
     constexpr std::size_t very_many = 4096;
     if (sphere_count >= very_many && max_path_length > 3)
         return 1;
-    return sphere_count >= default_tree_from ? 2 : 4;
+    return sphere_count >= default_tree_from || !gloss ? 2 : 4;
 }
 
 std::uint32_t rounded_up(std::uint32_t levels) {
@@ -105,7 +105,7 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
     features[gpu::ID_SPHERE_COUNT] = static_cast<std::uint32_t>(surfaces.spheres.size());
     features[gpu::ID_PLANE_COUNT] = static_cast<std::uint32_t>(surfaces.planes.size());
     const std::size_t sphere_count = scene.scene.spheres.size() + (tree ? tree->sphere_count() : 0);
-    features.most_branches = branches_among(sphere_count, render.max_path_length);
+    features.most_branches = branches_among(sphere_count, render.max_path_length, scene.gloss);
     features[gpu::ID_TREE] = tree != nullptr;
     for (const LookColumn &look : look_columns)
         features[look.constant] = tree && tree->has(look.column);

@@ -37,8 +37,8 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
 bool samples_lamps(const Features &features);
 
 // Branches share a path's camera ray and first vertex, because most noise comes from later vertices. The number of
-// branches is smaller in scenes with many spheres and for paths of three vertices with spots. The number is 1 if a
-// sample takes nearly 65535 loop trips, a driver's limit.
+// branches is smaller without gloss, with many spheres, and for paths of three vertices with spots. The number is 1 if
+// a sample takes nearly 65535 loop trips, a driver's limit.
 std::uint32_t branch_count(const Features &features);
 
 PointLayout point_layout(const Features &features);

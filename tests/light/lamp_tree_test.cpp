@@ -137,12 +137,12 @@ TEST(LampTreeFeature, DependsOnTheNumberOfLampsAlone) {
     EXPECT_EQ(below[gpu::ID_LAMP_TREE_LEVELS], 0U);
     EXPECT_EQ(below[gpu::ID_LAMP_TREE_WORDS], 0U);
     EXPECT_EQ(pt::SceneBlocks(below).lamp_tree, pt::SceneBlocks(below).index);
-    EXPECT_EQ(pt::loop_trips_per_sample(below), 1U + 31 + 62 + 4 * 2 * (1 + 62 + 31));
+    EXPECT_EQ(pt::loop_trips_per_sample(below), 1U + 31 + 62 + 2 * 2 * (1 + 62 + 31));
 
     const pt::Features from = features(lamp_scenes::in_a_box(least, 4));
     EXPECT_EQ(from[gpu::ID_LAMP_TREE_LEVELS], 1U);
     EXPECT_EQ(from[gpu::ID_LAMP_TREE_WORDS], 5 * (2 + 8) + 8 + 8U);
-    EXPECT_EQ(pt::loop_trips_per_sample(from), 1U + 32 + 6 + 4 * 2 * (1 + 6 + 32));
+    EXPECT_EQ(pt::loop_trips_per_sample(from), 1U + 32 + 6 + 2 * 2 * (1 + 6 + 32));
     EXPECT_FALSE(features(lamp_scenes::in_a_box(least, 4), PT_ESTIMATOR_BSDF)[gpu::ID_LAMP_TREE_LEVELS]);
     EXPECT_TRUE(features(lamp_scenes::in_a_box(least, 4), PT_ESTIMATOR_LIGHT)[gpu::ID_LAMP_TREE_LEVELS]);
     EXPECT_EQ(features(lamp_scenes::in_a_box(200, 1)), features(lamp_scenes::in_clusters(200)));

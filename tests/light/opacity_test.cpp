@@ -179,6 +179,30 @@ TEST_F(Opacity, OfOneSurfaceIsEvenlySpread) {
     EXPECT_GT(largest_error(PT_SAMPLER_RANDOM), 20.0 / 256.0);
 }
 
+// Only the first branch of a path has the shadow ray.
+TEST_F(Opacity, OfOneSurfaceIsEvenlySpreadOverShadowRays) {
+    Given given;
+    std::ranges::fill(given.materials[0].diffuse, 0.0F);
+    given.spheres = {{{0, 50, 0}, 0.1, {0, 0, 0}, 2, 0}};
+    given.camera = camera_at({0, 3, 4}, {0, -1.5, 0}, 0.05);
+    const auto light = [&](float opacity, std::uint32_t sampler) {
+        given.capsules = {ball_at({0, 10, 0}, 1.0, opacity)};
+        given.capsules.front().material = 0;
+        return render_image(context(), given.scene(), given.camera, picture_of(sampler), 256);
+    };
+    const std::vector<float> clear = light(0.0F, PT_SAMPLER_SOBOL);
+    const auto largest_error = [&](std::uint32_t sampler) {
+        const std::vector<float> veiled = light(0.4F, sampler);
+        double largest = 0.0;
+        for (std::size_t i = 0; i < clear.size(); ++i)
+            largest = std::max(largest, std::abs(veiled[i] / clear[i] - 0.6));
+        return largest;
+    };
+    EXPECT_LE(largest_error(PT_SAMPLER_SOBOL), 10.0 / 256.0);
+    EXPECT_LE(largest_error(PT_SAMPLER_HALTON_CP), 10.0 / 256.0);
+    EXPECT_GT(largest_error(PT_SAMPLER_RANDOM), 20.0 / 256.0);
+}
+
 // Returns the variance of the product of two decisions over lattices (i / N, r i / N) of N = 2^m points, with random
 // shifts and random odd r. A frequency that is 2^v times an odd number contributes only if the other frequency has the
 // same v, and then only in 2^(v + 1) of N lattices. For one decision, the frequencies that are multiples of 2^v have
