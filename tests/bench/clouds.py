@@ -1,5 +1,5 @@
-"""Clouds of spheres. A cloud has the columns of centers and radii as floats, materials as indices into the materials of
-surroundings(), and the rest of the scene in surroundings()."""
+"""Clouds of spheres. centers and radii are columns of floats. materials are indices into the materials of
+surroundings(), which returns the rest of the scene."""
 
 import array
 import random
@@ -19,7 +19,7 @@ LAYERS, MANY_LAMPS = 4, 24
 
 
 class SphereCloud:
-    """Largest radii are `fill` times the mean distance of centers. Seeds move spheres and, but for the first, the lamp."""
+    """Largest radii are `fill` times the mean distance of centers. Seeds move spheres. Only SEED keeps the lamp in place."""
 
     fill = 0.45
 
@@ -69,7 +69,7 @@ class CloudBehindABall(SphereCloud):
 
 
 class CloudWithManyLamps(SphereCloud):
-    """The lamps together have the surface of the one lamp of other clouds."""
+    """The lamps have the total surface of the single lamp in other clouds."""
 
     def surroundings(self):
         rng = random.Random(self.count)

@@ -85,7 +85,7 @@ def image_error(image, reference):
 
 class Bench:
     def __init__(self, options):
-        # Uses the program's settings. Mesa's cache is off, because it ignores vector widths.
+        # Sets the program's vector width. Mesa's cache is off, because it ignores vector widths.
         if "avx512vl" in pathlib.Path("/proc/cpuinfo").read_text(encoding="ascii", errors="replace"):
             os.environ.setdefault("LP_NATIVE_VECTOR_WIDTH", "512")
         os.environ.setdefault("MESA_SHADER_CACHE_DISABLE", "true")

@@ -1,11 +1,11 @@
-"""Measures the cost of scenes with 10 to a million spheres: clouds with one lamp and of other kinds, or clouds of lamps.
+"""Measures the cost of clouds of 10 to a million spheres.
 
     DRJIT_LIBLLVM_PATH=libLLVM.so.19.1 python3 tests/bench/scale.py --library old=OLD/libpt.so \\
         --library pt=build/lib/libpt.so --mitsuba mitsuba/bin/python --counts 10,1e3,1e5
 
---clouds all draws clouds of eight kinds, with --seeds several of each kind. --clouds lamps has lamps whose brightness spans four powers of ten, with eight balls below each lamp. --clouds dark-lamps has
-balls in place of the lamps, so the difference is the cost of choosing lamps. benchmark.py describes Mitsuba. Figures are
-medians.
+--clouds all draws clouds of eight kinds, and --seeds sets the number of each kind. --clouds lamps has lamps whose brightness
+spans four powers of ten, with eight balls below each lamp. --clouds dark-lamps has balls in place of the lamps, so the
+difference is the cost of choosing lamps. benchmark.py describes Mitsuba. Figures are medians.
 
 scene           seconds of pt_set_scene, or of building Mitsuba's scene
 bytes           device memory per sphere, from pt_stats.device_bytes with and without the cloud
@@ -16,7 +16,7 @@ M/s, M/CPU s    million samples per wall and per CPU second (not on a GPU)
 samples, or 4 times as many in Mitsuba. The reference is the first library's picture with 64 times as many samples. The
 ratio is cost x relMSE, divided by the first library's. "off by" is the difference between the means of the picture and
 the reference, relative and in standard errors. A second table has the geometric means of ratios over the clouds of a
-kind, with the standard error and the largest ratio. Pictures with other means are left out.
+kind, with the standard error and the largest ratio. Pictures with different means are left out.
 """
 
 import argparse
@@ -264,7 +264,7 @@ def print_errors(errors, options):
 
 
 def mean_ratios(errors):
-    """Maps kinds and programs to the geometric mean, its standard error as a factor, the largest, and the number."""
+    """Maps kinds and programs to the geometric mean, its standard error as a factor, the largest ratio, and the count."""
     ratios = {}
     for error in errors:
         if abs(error["off_by"][0]) < ALIKE:

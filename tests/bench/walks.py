@@ -4,7 +4,7 @@
     python3 tests/bench/walks.py --library old=build/lib/libpt.so --library new=build/lib/libpt.so --shaders new=DIR
 
 Each round builds the kernels anew, because builds of the same code differ in speed, and renders short pictures in turn.
-A round's ratio is new over old of the least CPU seconds of a picture, which other processes disturb least. Rounds go on
+A round's ratio is new / old of the least CPU seconds, because other processes only add time. Rounds go on
 until the mean's standard error is small. Ends with 1 if the mean exceeds the limit, and with 2 if the machine is too
 noisy for an answer.
 """

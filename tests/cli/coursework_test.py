@@ -5,7 +5,7 @@ from command_line import PT, SCENES, CommandLineTest
 
 COURSE = os.path.join(SCENES, "..", "..", "shaders", "coursework")
 DIFFERENCES = ("1-emission", "2-directions", "3-throughput", "4-numbers", "5-filter", "6a-cosine", "6b-lamps", "7-motion")
-# Maps a difference to the steps that it makes right. By default this is the step of the same name.
+# Maps a difference to the steps that it makes right, if these are not the step of the same name.
 STEPS = {"6b-lamps": ("6b", "6c")}
 
 ASKING = """for (uint lamp = 0u; lamp < LAMP_COUNT; ++lamp) {

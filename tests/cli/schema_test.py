@@ -92,7 +92,7 @@ class Schema(CommandLineTest):
                     self.assertEqual(names_in(domain), element["properties"][name]["enum"])
 
     def refusal(self, scene, is_valid):
-        """Returns what refuses the scene, and the message. Only scenes that the schema refuses and the reader accepts reach the library."""
+        """Returns what refuses the scene, and the message. is_valid: the schema accepts the scene, so the library need not check it."""
         self.write("s.json", json.dumps(scene))
         refused = "reader"
         try:

@@ -1,4 +1,5 @@
-"""The material of shaders/MATERIALS.md: its radiance, and estimators against uniform directions, which need no density."""
+"""Tests the radiance of the material of shaders/MATERIALS.md, and all estimators against uniform directions, which need no
+density."""
 
 import pathlib
 import shutil

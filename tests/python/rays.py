@@ -24,7 +24,7 @@ def to_ball(start, way, radius):
 
 
 def rims(camera, aspect, centers, radii):
-    """For each side of the picture, the place of each ball's rim: 1 is at the side, and 0 in the middle."""
+    """Yields the places of the balls' rims toward each side of the picture: 1 is at the side, and 0 in the middle."""
     right, above, back = camera.axes()
     ways = centers - np.array(camera.position)
     depth = -(ways @ back)
