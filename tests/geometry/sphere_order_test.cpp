@@ -117,6 +117,18 @@ TEST(SphereOrder, GivesEachSphereOnePlaceInATreeThatTheStackHolds) {
         }
 }
 
+TEST(SphereOrder, LeavesTheFirstOfTwins) {
+    constexpr std::uint32_t different = 3 * 50;
+    const auto ball = [](std::uint32_t i) {
+        const std::uint32_t point = i % different / 3;
+        return Ball{std::exp2(2.0F * static_cast<float>(point) - 60.0F), 0, 0, 1e-20F};
+    };
+    const auto kind = [](std::uint32_t i) { return pt::SphereBits{i % different}; };
+    const pt::TreeShape shape = shape_of(items_of(20 * different, ball), kind);
+    expect_each_once(shape.spheres, different);
+    expect_well_linked(shape);
+}
+
 struct Told {
     std::vector<double> shares;
     double stop_at = 2.0;
