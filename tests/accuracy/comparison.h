@@ -21,8 +21,8 @@ public:
     void add(Real value, Real exact, Real bound, const std::vector<float> &input);
     void add(const glm::vec3 &value, const Direction &exact, Real bound, const std::vector<float> &input);
 
-    // Prints the largest error, and the error nearest to its bound with its input. The test fails if an error exceeds
-    // its bound, or if exact values shifted by 1.01 bounds would pass.
+    // Prints the largest error, the error nearest to its bound, and the input of the latter. The test fails if an error
+    // exceeds its bound, or if exact values shifted by 1.01 bounds would pass.
     void finish() const;
 
 private:

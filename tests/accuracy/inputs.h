@@ -17,8 +17,8 @@ public:
 
     std::uint32_t word() { return static_cast<std::uint32_t>(generator_()); }
 
-    // Returns a multiple of 2^-24 in [0, 1), like the sampler. One in sixteen results is among the first or last four
-    // values.
+    // Returns a multiple of 2^-24 in [0, 1), like the sampler. One in sixteen is one of the four smallest or four
+    // largest values.
     float number() {
         const std::uint32_t bits = word() >> 8;
         const std::uint32_t choice = word();

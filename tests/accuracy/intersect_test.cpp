@@ -18,8 +18,8 @@ constexpr float leaving_outside = 1.0F;
 constexpr float leaving_inside = 2.0F;
 
 struct Item {
-    glm::vec3 center; // relative to the ray's start, or a plane's normal
-    float radius;     // or the start's height above a plane
+    glm::vec3 center; // relative to the ray's start; for planes the normal
+    float radius;     // for planes the start's height
     glm::vec3 direction;
     float start;
 };

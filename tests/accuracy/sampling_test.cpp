@@ -117,7 +117,7 @@ TEST_F(AccuracySampling, OfDirectionsAndWeights) {
     disc.finish();
 }
 
-// Each weight has an error of 14.5 ulp of at most 2^-24.
+// Each weight has an error of 14.5 ulp, and an ulp is at most 2^-24.
 TEST_F(AccuracySampling, WeightsOfBothTechniquesSumToOne) {
     std::vector<Item> exchanged = items_;
     for (Item &item : exchanged)

@@ -30,8 +30,8 @@ double largest_error(const Image &image, double exact) {
 
 TEST_F(ExactLight, FromASphereItselfItsFarSideIsSeen) {
     for (const float emission : {0.0F, 0.5F}) {
-        // The lamp behind the sphere would show a leak. Lamps and black spheres are stored differently, so the sphere
-        // is tested as either.
+        // The lamp behind the sphere would show a leak. Lamps and black spheres are stored differently, so both
+        // are tested.
         const pt_material materials[] = {{{0, 0, 0}, {0, 0, 0}, {emission, emission, emission}, 0, 0},
                                          {{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0, 0}};
         const pt_sphere spheres[] = {{{0, 0, -1}, 1, {0, 0, 0}, 0, 0}, {{0, 0, -1}, 50, {0, 0, 0}, 1, 0}};

@@ -119,8 +119,8 @@ std::vector<std::string> lines_of(const std::string &device) {
     return lines;
 }
 
-// A line of the file names a scene and a sampler. PT_TEST_MANY renders every line with every context instead of a
-// single one.
+// A line of the file names a scene and a sampler. Each line is rendered with one context, or with
+// PT_TEST_MANY with every context.
 TEST_F(FilmChecksums, AreThoseOfBefore) {
     const std::vector<std::string> expected = lines_of(device_name());
     if (expected.empty())

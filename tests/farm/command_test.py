@@ -52,7 +52,7 @@ class Command(unittest.TestCase):
         return ended.exception.code, said.getvalue()
 
     def farm(self, *words, code=0):
-        """Uses one worker of this class for all tests, because Dask takes seconds to start."""
+        """Uses one worker for all tests of this class, because Dask takes seconds to start."""
         found, said = self.refused(*words, "--scheduler", self.cluster.scheduler_address)
         self.assertEqual(found, code, said)
         return said

@@ -52,7 +52,7 @@ int32_t go_on(void *, double) {
     return 0;
 }
 
-// No work runs after a failure. Otherwise later calls would be refused.
+// A failure also ends the work. Otherwise later calls would be refused.
 pt_result start_and_poll(pt_context *context, const pt_accumulate_info *info) {
     pt_accumulate_info to_start = *info;
     to_start.progress = nullptr;

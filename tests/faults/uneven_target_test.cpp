@@ -23,7 +23,7 @@ using FilmBytes = std::vector<char>;
 constexpr uint32_t uneven_width = 40;
 constexpr uint32_t uneven_height = 24;
 
-// Without the validation layer, because its calls and memory would count.
+// Leaves out the validation layer, because its calls and memory would count.
 Context context_of(uint32_t device_count) {
     auto info = sized<pt_create_info>();
     info.submit_milliseconds = 20;

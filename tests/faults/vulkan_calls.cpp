@@ -59,7 +59,7 @@ std::uint64_t largest_heap = UINT64_MAX;
 std::set<const void *> lost; // devices and queues
 std::set<VkFence> hanging;
 std::map<VkQueue, VkDevice> devices_of_queues;
-std::multiset<std::pair<const void *, Call>> live; // object's maker and function
+std::multiset<std::pair<const void *, Call>> live; // the handle and the function that made the object
 PFN_vkDeviceWaitIdle wait_idle = nullptr;
 PFN_vkGetDeviceProcAddr get_device_function = nullptr;
 

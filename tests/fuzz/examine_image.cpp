@@ -99,9 +99,9 @@ std::optional<pt::Features> features(const Input &input) {
 
 } // namespace
 
-// Skips inputs that need another kernel, because building a kernel takes long.
 const std::uint32_t neighbour_count = 255;
 
+// Skips inputs that need another kernel, because building a kernel takes long.
 void examine(std::span<const Input> family) {
     const Input &first = family.front();
     const std::optional<pt::Features> first_features = features(first);

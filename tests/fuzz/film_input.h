@@ -10,7 +10,7 @@
 
 namespace fuzz {
 
-// The first byte decides whether a valid checksum is written. Otherwise almost no changed film is accepted.
+// The first byte decides whether a valid checksum is written. Without a valid one, almost no changed film is accepted.
 inline std::vector<std::byte> film_input(std::span<const std::byte> before, std::span<const std::byte> bytes) {
     std::vector<std::byte> film(before.begin(), before.end());
     if (bytes.empty())

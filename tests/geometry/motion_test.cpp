@@ -91,8 +91,8 @@ TEST_F(HugeMotion, OfALampTheOutsideIsSeen) {
         EXPECT_EQ(value, 4.0F) << "the lamp overhead fills the view";
 }
 
-// The light of a lamp 3 above is about height^-2, and the height changes by 1/4. The midpoint rule then has an error of
-// (1/4)^2 * 6 / 24 / 32^2 = 2e-5.
+// The lamp is 3 above the floor. Its light is about height^-2, and the height changes by 1/4. The midpoint rule has an
+// error of (1/4)^2 * 6 / 24 / 32^2 = 2e-5.
 TEST_F(HugeMotion, IsTheMeanOfFrozenTimes) {
     constexpr uint32_t times = 32;
     for (const FloorBall &floor : {FloorBall{1e7, {3, 0.5, -2}}, FloorBall{1e5, {1000, 0.25, 0}}}) {

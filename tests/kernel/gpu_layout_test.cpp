@@ -73,7 +73,7 @@ TEST(GpuLayout, TheFilmUnitFollowsTheBrightestLampInUse) {
     EXPECT_EQ(pt::PreparedScene(scene).film_unit, 1.0); // unused materials do not count
 }
 
-// The film rejects light with a sign, even zeros.
+// The film rejects negative light, even negative zeros.
 TEST(GpuLayout, ALampsNegativeZeroIsZero) {
     pt::Scene scene = small_scene();
     scene.materials[2].emission.r = -0.0F;

@@ -62,7 +62,7 @@ InvarianceScene diffuse_scene() {
     return scene;
 }
 
-// Uses devices that can read a scene from several kinds of memory. On other devices, rounding may depend on the kind.
+// Skips devices that read scenes only from buffers, because their rounding may depend on the kind of memory.
 class SceneSource : public testing::Test {
 protected:
     void SetUp() override {

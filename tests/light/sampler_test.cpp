@@ -149,7 +149,7 @@ bool is_shifted_in_pixels(const Table &table, const Blocks &blocks, std::uint32_
     return true;
 }
 
-// These shifts keep Sobol's nets in every pixel.
+// One shift per pixel and dimension keeps the points evenly spread.
 TEST(SamplerShifts, AreOneInEachPixelAndDimension) {
     Request request;
     request.pixel_count = 256;

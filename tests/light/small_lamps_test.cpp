@@ -227,8 +227,7 @@ TEST(SmallLamps, CountAgainstATargetIfTheirLackShows) {
     EXPECT_EQ(pt::samples_to_hit(dim, 0.01, true), 0U);
 }
 
-// The lamps expect 12 or 2 hits. The error shown by the samples is less than the lamps' error, up to twice that, or
-// more.
+// 12 or 2 hits are expected. The error of the samples is less than the lamps' error, up to twice as large, or larger.
 TEST(SmallLamps, AddTheirSquaresAndLeaveTheErrorUncertainIfTheyAreHardlyHit) {
     for (const double hits : {12.0, 2.0})
         for (const double shown : {0.1, 5.0, 12.0}) {
