@@ -175,6 +175,7 @@ TEST(TileTasks, BringTilesToTheirGoals) {
             EXPECT_EQ(samples.of(tile).count_below(3), before.of(tile).count_below(3)) << "from sample 3 on";
         }
     }
+    EXPECT_TRUE(pt::TileTasks(pt::SampleSet({4, 9}), 0, {}, 5).empty()) << "all tiles have as many";
 }
 
 } // namespace
