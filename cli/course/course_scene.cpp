@@ -227,7 +227,7 @@ std::vector<Measured> disc_values(std::span<const double> coverage, double bound
 }
 
 // A pixel's mean of 256 samples has a standard deviation of at most 1/32. About 80 pixels are partly covered. The
-// values `soft` and `slanted` therefore have a standard deviation below sqrt(80) / 32 = 0.28, and the bound 1.
+// values `soft` and `slanted` therefore have a standard deviation below sqrt(80) / 32 = 0.28. Their bound is 1.
 std::vector<Measured> disc_values(const Picture &picture) {
     std::vector<double> coverage;
     for (std::uint32_t y = 0; y < picture.height; ++y)

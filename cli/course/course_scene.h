@@ -36,7 +36,7 @@ Channels lamplight_of_equal_numbers(double first, double last);
 inline constexpr double lamp_count = 5.0;
 double red_lamp_cosine(); // cosine of half the angle of the lamp's cone about the normal
 
-// Exact values by form factors of spheres above a plane, sin^2 a cos (Snyder 1996).
+// Exact values by form factors of spheres above a plane (Snyder 1996).
 Channels right_lamplight();
 
 // The sky is yellow. The tilted floor reflects red diffusely and green in a lobe. It emits blue, which the sky lacks,

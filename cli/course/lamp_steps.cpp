@@ -22,7 +22,7 @@ constexpr double square_light(double x) {
     return (1.0 - x * x) * (1.0 - x * x);
 }
 
-// The sample goes to one of `count` lamps. Its square is count (2 (1 - x) cosine)^2 on average over the cone.
+// The sample goes to one of `count` lamps. Averaged over the cone, its square is count (2 (1 - x) cosine)^2.
 constexpr double variance_of_choice(double x, double count) {
     return count * 4.0 / 3.0 * (1.0 - x) * (1.0 - x * x * x) / square_light(x) - 1.0;
 }

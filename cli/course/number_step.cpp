@@ -9,9 +9,9 @@ constexpr std::uint32_t samples = 64;
 
 // Ranges of a variance, relative to the variance of random numbers. If pixel values are normally distributed, their
 // variance has the relative standard deviation sqrt(2 / pixels). The quotient of two such variances has
-// 2 / sqrt(pixels) = 2 / side. Ranges keep two bounds away from 1 and from `samples`, the variance of equal samples.
-// With N samples the variance of random numbers falls as 1 / N. For functions with edges, the variance of Halton's
-// points falls more slowly than 1 / N^3.
+// 2 / sqrt(pixels) = 2 / side. Ranges stay two bounds away from 1, and from `samples`, the variance if all samples are
+// equal. With N samples the variance of random numbers falls as 1 / N. For functions with edges, the variance of
+// Halton's points falls more slowly than 1 / N^3.
 constexpr double apart = 1.0 + 2.0 * standard_errors * 2.0 / side;
 constexpr Range better_than_random{1.0 / (samples * samples), 1.0 / apart};
 constexpr Range worse_than_random{apart, samples / apart};

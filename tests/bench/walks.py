@@ -24,7 +24,7 @@ from scene_renderer import SceneRenderer
 from table import print_table
 
 LIMIT = 1.025  # half of the loss to notice
-STANDARD_ERROR = 0.008  # a third of half of the loss
+STANDARD_ERROR = 0.008  # a third of LIMIT - 1
 FEWEST_ROUNDS = 4
 SECONDS = 0.02  # of a picture
 SLOWER, UNCLEAR = 1, 2

@@ -147,7 +147,7 @@ TEST(Denoise, StatesTheSquareOfItsError) {
     }
 }
 
-// One of 300 values in a half is brighter by 60. The filter reduces it to 4, which removes 0.2 from the mean. Each
+// In each half one of 300 values is brighter by 60. The filter reduces it to 4, which removes 0.2 from the mean. Each
 // image has 92,160 / 300^2 = 1 value with such light in both halves.
 TEST(Denoise, StatesRareLightThatItsFilterTakesAway) {
     constexpr double probability = 1.0 / 300;

@@ -20,7 +20,7 @@ TEST(SphereTree, BoxesHoldTheirSpheresAtAllTimes) {
     }
 }
 
-// Radii and motions of up to 2^30 steps are rounded by half of 2^-23.
+// Radii and motions of up to 2^30 steps have relative rounding errors of up to 2^-24.
 TEST(SphereTree, StaysWithinReach) {
     for (const double scale : {1e-18, 1.0, 1e17})
         for (const double motion : {0.0, 1.0}) {

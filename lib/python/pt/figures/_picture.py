@@ -35,7 +35,7 @@ def strip_of(legend: Legend, height: int, options: Options) -> int:
 
 
 def background_of(options: Options) -> tuple[Doubles | None, str]:
-    """Returns the color, or None if transparent, and the ink."""
+    """Returns the background's color, None if transparent, and the words' color."""
     if isinstance(options.background, str) and options.background == "transparent":
         return None, INK
     is_white = isinstance(options.background, str) and options.background == "white"

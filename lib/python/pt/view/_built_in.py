@@ -49,7 +49,7 @@ class BuiltIn:
         return self._context is not None and self._count < count
 
     def step(self, edited: Context, count: int, seconds: float, stops: Callable[[float], bool]) -> bool:
-        """Compares when the samples have doubled, and when both kernels have equally many. Returns whether it compared."""
+        """Compares after each doubling of the samples, and when both kernels have equally many. Returns whether it compared."""
         if self._context is None:
             return False
         self._owed += SHARE * seconds
