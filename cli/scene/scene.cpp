@@ -64,7 +64,7 @@ ExitCode blame(const SceneFile &scene, const LibraryError &error) {
 }
 
 bool describe_scene(const Context &context, const SceneFile &file, const std::function<bool(double)> &goes_on) {
-    std::function<bool(double)> listener = goes_on; // pt_scene.progress_user is not const
+    std::function<bool(double)> listener = goes_on; // copied, because pt_scene.progress_user is not const
     pt_scene scene = file.scene();
     const std::vector<pt_sphere_array> arrays = file.sphere_arrays();
     scene.sphere_arrays = arrays.data();

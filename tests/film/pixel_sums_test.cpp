@@ -73,7 +73,7 @@ TEST(PixelSums, AddAsNumbersOfAllWords) {
         }
 }
 
-// A part's mean is at most the pixel's mean if it is the lesser one.
+// The smaller mean of both parts is at most the pixel's mean.
 TEST(PixelSums, ValuesAreTheNearestFloats) {
     RandomSums random;
     std::vector<ResolvedPixel> pixels(50'000);

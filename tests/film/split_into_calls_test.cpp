@@ -51,7 +51,7 @@ TEST_F(SplitIntoCalls, SplittingOverCallsKeepsTheBits) {
     EXPECT_NE(image_of({7, 19, 37}), at_once) << "a missing sample must show";
 }
 
-// These calls exceed the limits of a dispatch and of the table of points.
+// The long calls exceed the limits of a dispatch and of the table of points.
 TEST_F(SplitIntoCalls, LongCallsHaveTheBitsOfShortOnes) {
     const Context patient = create_context([](pt_create_info &info) { info.submit_milliseconds = 1000; });
     for (const uint32_t sampler : {PT_SAMPLER_RANDOM, PT_SAMPLER_SOBOL}) {

@@ -115,7 +115,7 @@ TEST_F(SceneSource, KeepsTheBitsWithOneLampMotionGlossAndAHugeSphere) {
     EXPECT_TRUE(render.film_by_driver(gpu::SCENE_IN_UNIFORM) == same.film) << "whoever fills the constants in";
 }
 
-// Equal numbers let compilers unite surfaces.
+// Compilers may unite surfaces with equal numbers.
 TEST_F(SceneSource, KeepsTheBitsOfSurfacesOfOneMaterial) {
     InvarianceScene alike = scene_with_lamps(2);
     std::fill_n(alike.materials[3].diffuse, 3, 0.3F);

@@ -179,7 +179,7 @@ TEST_F(Opacity, OfOneSurfaceIsEvenlySpread) {
     EXPECT_GT(largest_error(PT_SAMPLER_RANDOM), 20.0 / 256.0);
 }
 
-// Only the first branch of a path has the shadow ray.
+// Only the first branch of a path casts the shadow ray.
 TEST_F(Opacity, OfOneSurfaceIsEvenlySpreadOverShadowRays) {
     Given given;
     std::ranges::fill(given.materials[0].diffuse, 0.0F);
