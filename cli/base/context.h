@@ -53,7 +53,7 @@ inline void require(pt_result result) {
         throw Failure(exit_code_of(result), pt_last_error(nullptr));
 }
 
-// Calls list(elements, &count) for the count, then for the elements.
+// Calls list(elements, &count) twice: for the count, then for the elements.
 template <typename Element, typename Count = std::uint32_t, typename List>
 std::vector<Element> elements_of(const List &list) {
     Count count = 0;

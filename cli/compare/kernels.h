@@ -25,7 +25,7 @@ using TellLook = std::function<void(std::uint32_t samples, const LightVerdict &v
 // Compares after 16 samples and after each doubling, up to the scene's spp, or 65536 without spp. Throws Failure.
 LightVerdict compare_kernels(const KernelTask &task, const TellLook &told);
 
-// Compares two contexts alike, up to `most` samples. The scene must not have files of columns.
+// Compares two contexts in this way, up to `most` samples. The scene must not have files of columns.
 LightVerdict compare_kernels(const Context &edited, const Context &built_in, const SceneFile &scene, std::uint32_t most,
                              const LightRule &rule, const TellLook &told);
 

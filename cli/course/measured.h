@@ -36,7 +36,7 @@ struct Picture {
     Measured relative_deviation(const std::string &name, std::size_t channel) const;
 };
 
-// Quotient of the variances over the pixels, in red.
+// Quotient of both pictures' variances over the pixels, in the red channel.
 Measured variance_beside(const std::string &name, const Picture &picture, const Picture &other);
 
 class CourseKernels {

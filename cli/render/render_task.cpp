@@ -12,7 +12,7 @@
 namespace cli {
 namespace {
 
-// Sample indices have 32 bits. A count beyond them is reduced if it is an upper limit, else refused.
+// Sample indices have 32 bits. A larger count is reduced if it is an upper limit, else refused.
 std::uint32_t limited_samples(std::uint32_t count, std::uint32_t first, bool is_upper_limit) {
     const std::uint64_t left = (std::uint64_t{1} << 32) - first;
     refuse_if(count > left && !is_upper_limit,
@@ -35,7 +35,7 @@ ImageWindow chosen_window(const std::optional<Rectangle> &crop, const pt_render 
 }
 
 std::uint32_t image_count(const RenderOptions &options) {
-    // The second half, two filtered halves, the result, and the filter's inputs and outputs.
+    // Denoising needs the second half, two filtered halves, the result, and the filter's inputs and outputs.
     const std::uint32_t of_denoising = options.denoiser.empty() ? 0 : 8;
     return 1 + static_cast<std::uint32_t>(options.wanted_layers().size()) + of_denoising;
 }

@@ -39,7 +39,7 @@ struct SelftestScene {
 
     double bound() const;
 
-    // Judges each number, or with noise the mean of each channel.
+    // Judges each number or, if samples differ, the mean of each channel.
     SelftestCheck judge(std::span<const float> radiance) const;
 };
 
@@ -50,7 +50,8 @@ SelftestScene lamp_in_a_ball();
 // With an error of 2% in a weight of multiple importance sampling, the mean would differ by at least twice the bound.
 std::vector<SelftestScene> weight_scenes();
 
-// Samples are cosines of sampled directions. The checks are means, second moments, and the fraction on each side.
+// Samples are cosines of sampled directions. The checks are means, second moments, and the fraction of directions on
+// each side.
 std::vector<SelftestScene> direction_scenes();
 
 // Renders in several calls and returns three values a pixel.

@@ -469,7 +469,7 @@ TEST(Denoise, IsUncertainOfFewTiles) {
     EXPECT_EQ(uneven.error.uncertain, std::uint32_t{PT_UNCERTAIN_RMSE} | PT_UNCERTAIN_RELATIVE_RMSE);
 }
 
-// rmse_high^2 and rmse_low^2 lie 1.96 standard errors from the mean square, rmse^2 1.28 above.
+// rmse_high^2 and rmse_low^2 lie 1.96 standard errors from the mean square, and rmse^2 lies 1.28 above it.
 TEST(Denoise, BoundsOfUncertainErrorsAreTwiceAsWide) {
     for (const std::size_t tiles : {6, 60}) {
         Denoising denoising(0, 1e-3);

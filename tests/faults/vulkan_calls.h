@@ -16,7 +16,7 @@ struct CallFault {
     std::size_t error_count = 0;
 };
 
-// Fails one call. `number` counts the calls that can fail from 1, and 0 stops failures. `error_index`, modulo the
+// Fails one call. `number`, from 1, counts the calls that can fail. 0 stops failures. `error_index`, modulo the
 // length of the function's list of errors, chooses the error. VK_TIMEOUT for a submission means that its work never
 // ends and each poll takes 0.1 s in the library's clock. VK_TIMEOUT for a wait takes an hour.
 void fail_call(std::size_t number, std::size_t error_index);
