@@ -14,7 +14,7 @@
 namespace cli {
 namespace {
 
-// Makes the context if there is none.
+// Makes the context on first use.
 ExitCode render(RenderTask task, RenderTimes times, std::optional<Context> &context, ValidationLog &log) {
     task.load();
     check_outputs(task);

@@ -9,7 +9,7 @@ from pt.figures.readers._lines import Lines
 
 
 class Frames(Protocol):
-    """Frames of a source, without those that have no particles.
+    """Frames of a source that have particles.
 
     current  index of the default frame; None: the last
     models   model numbers of a structure; None if frames are not models
