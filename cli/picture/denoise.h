@@ -25,7 +25,7 @@ struct Halves {
 using RenderHalves = std::function<bool(std::uint32_t sample_count, const pt_error_estimate &error, Halves &halves)>;
 
 struct Denoised {
-    RenderedImage image; // `raw` is the halves' mean; the layers are the second half's
+    RenderedImage image; // `raw` is the halves' mean; counts are sums; layers are the second half's
     pt_result ended;
 };
 

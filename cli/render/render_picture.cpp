@@ -69,7 +69,7 @@ std::string ending_of(const RenderReport &report, const ImageRender::Result &ren
     return interrupted ? "signal" : rendered.ended_by.value_or(report.target_reached() ? "error" : "samples");
 }
 
-// Signals are judged elsewhere. A missing file takes precedence over missing samples, which a checkpoint can supply.
+// A missing file takes precedence over missing samples, which a checkpoint can supply.
 ExitCode outcome_of(const RenderReport &report, const ImageRender::Result &rendered, bool all_written) {
     if (!all_written)
         return ExitCode::file;
@@ -202,7 +202,7 @@ ExitCode render_picture(const Context &context, const RenderTask &task, const Re
         print_pieces(context, task, rows);
     report.create_seconds = seconds_since(times.create_start);
 
-    // The module loads while the next steps run.
+    // Not before the driver, whose loading would wait for this module.
     ImageWriter writer;
     if (needs_module(options.output))
         writer.load_module();
