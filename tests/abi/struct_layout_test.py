@@ -1,5 +1,5 @@
 """Checks sizes and offsets of structs, and numbers of enumerators: struct_layout_test.py HEADERS TABLE ROOT C_COMPILER.
-With only HEADERS and C_COMPILER it prints the table. Structs may only grow at the end, and numbers must not change. The output of
+With only HEADERS and C_COMPILER it prints the table. Structs may only grow at the end. Numbers must not change. The output of
 ROOT/lib/python/generate.py must be current."""
 
 import ctypes

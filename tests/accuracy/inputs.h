@@ -17,7 +17,7 @@ public:
 
     std::uint32_t word() { return static_cast<std::uint32_t>(generator_()); }
 
-    // Returns a multiple of 2^-24 in [0, 1), like the sampler. One in sixteen is one of the four smallest or four
+    // Returns a multiple of 2^-24 in [0, 1), like the sampler. One in sixteen is among the four smallest or four
     // largest values.
     float number() {
         const std::uint32_t bits = word() >> 8;

@@ -1,5 +1,4 @@
-"""Tests the radiance of the material of shaders/MATERIALS.md, and all estimators against uniform directions, which need no
-density."""
+"""Tests the radiance of shaders/MATERIALS.md's material, and all estimators against uniform directions, which need no density."""
 
 import pathlib
 import shutil

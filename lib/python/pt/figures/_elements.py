@@ -100,7 +100,7 @@ def _number(label: str, is_atom_name: bool) -> int:
 
 
 def elements_of(labels: Array) -> tuple[Array | None, list[str]]:
-    """Returns atomic numbers (0 if unknown; None if all are unknown) and notes. `labels` are symbols in any case, also with digits or
+    """Returns atomic numbers (0 if unknown, None if all are) and notes. `labels` are symbols in any case, also with digits or
     charges; PDB atom names; or atomic numbers."""
     values, codes = distinct(labels)
     names = [str(value) for value in values]

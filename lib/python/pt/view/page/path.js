@@ -24,7 +24,7 @@ export class PathView {
     this.request();
   }
 
-  // Called when another pixel or no pixel is held.
+  // Called when another or no pixel is held.
   changes(held) {
     this.trace = undefined;
     $("path").hidden ||= !held;
