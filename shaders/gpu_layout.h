@@ -35,8 +35,8 @@ PT_CONSTANT KIND_CAPSULE = 2;
 //   point in the pixel (2), time (1, with MOTION)
 //   point on the lens (2, with LENS)
 //   point on a lamp as seen from the first vertex (2), for each of up to EVERY_LAMP_LIMIT lamps
-//   with spots: direction (2) and spot (1); at the second vertex, lamp (3) and direction (2 or 3)
-// Blocks of each vertex that a branch leaves:
+//   direction to a spot (2) and choice of the spot (1); at the spot, lamp (3) and direction (2 or 3)
+// Blocks of each vertex from which a branch continues:
 //   point on a lamp (2) and choice of the lamp (1, if there are several), unless every lamp has been sampled
 //   direction (2), specular or diffuse lobe (1, with GLOSS), survival of Russian roulette (1, for long paths)
 PT_CONSTANT EVERY_LAMP_LIMIT = 4;    // up to this number of lamps, the first vertex samples all
@@ -232,7 +232,7 @@ struct ErrorSquares {
 };
 
 struct TileErrors {
-    ErrorSquares square;          // (x - r)^2 in film units; x is the mean of a pixel, r its limit
+    ErrorSquares square;          // (x - r)^2 in film units; x: mean of a pixel, r: estimate of its limit
     ErrorSquares relative_square; // (x - r)^2 / (r^2 + offset^2) * relative_scale^2, without pixels of met_once
     ErrorSquares met_once;        // like relative_square, if only one part hits the light; r: the other part's mean
     ErrorSquares as_lamps;        // like met_once with r = x

@@ -13,7 +13,7 @@
 #include "vertex.glsl"
 
 // Light that arrives from a second vertex in the direction of a spot. The light is weighted against the branches, which
-// also find it (Veach 1997, chapter 9). Only the branches find light over more vertices.
+// also find it (Veach 1997, chapter 9). Only the branches find light of longer paths before the spot.
 vec3 light_by_way_of_spot(Vertex vertex, Material material, Spots spots, SampleKey key, float time)
 {
     vec3 numbers = spot_numbers(key);

@@ -97,8 +97,8 @@ Entered enter_node(NodeWords words, GridRay ray, vec3 inverse, float before)
     uvec3 nearer = uvec3(backwards.x ? high.x : low.x, backwards.y ? high.y : low.y, backwards.z ? high.z : low.z);
     uvec3 farther = uvec3(backwards.x ? low.x : high.x, backwards.y ? low.y : high.y, backwards.z ? low.z : high.z);
 
-    // `width` is the distance along the ray of 256 node steps. `corner` is the distance of the low corner, minus the 1
-    // that byte_as_float() adds.
+    // `width` is the distance along the ray for 256 node steps. `corner` is the distance to the low corner minus one
+    // `width`, because byte_as_float() returns 1 + byte / 256.
     uvec3 exponents = uvec3(head.w, head.w >> 5, head.w >> 10) & 31u;
     vec3 width = uintBitsToFloat((exponents + 135u) << 23) * inverse;
     vec3 corner = (vec3(ivec3(head.xyz) - ray.base) - ray.rest) * inverse - width;

@@ -97,7 +97,7 @@ struct Walk {
     bool done;
 };
 
-// On lavapipe invocations go in step, because all execute every branch of the code.
+// On lavapipe, invocations run in lockstep, because all execute every branch of the code.
 const bool IN_STEP = WALK_TRIPS == 0u;
 
 // Groups to be entered. The stack is outside Walk, because functions copy arguments. With IN_STEP all accesses have

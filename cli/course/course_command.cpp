@@ -72,8 +72,8 @@ int grade(const std::string &folder, const std::string &device) {
 
 constexpr const char *next_step = "next";
 
-// Also checks the step after a wrong one, because its mistakes may already spoil the earlier step, which cannot name
-// them.
+// A mistake in the next step may already spoil the pictures of this one, whose patterns do not include it. So if a
+// wrong step fits no pattern, the next step is checked too.
 int check_next(CourseKernels &kernels) {
     const std::vector<CourseStep> &steps = course_steps();
     for (auto step = steps.begin(); step != steps.end(); ++step) {

@@ -112,7 +112,7 @@ struct DecodedImage {
     std::vector<float> values;
     std::vector<ImageAttribute> attributes;
 
-    // Wraps if the image begins outside the picture.
+    // Negative x and y become large numbers (modulo 2^32).
     ImageWindow window() const {
         return {{static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), width, height}, full_width, full_height};
     }

@@ -69,7 +69,7 @@ std::string ending_of(const RenderReport &report, const ImageRender::Result &ren
     return interrupted ? "signal" : rendered.ended_by.value_or(report.target_reached() ? "error" : "samples");
 }
 
-// A missing file takes precedence over missing samples, which a checkpoint can supply.
+// A file that was not written decides first. A run that ended early can be resumed from its checkpoint.
 ExitCode outcome_of(const RenderReport &report, const ImageRender::Result &rendered, bool all_written) {
     if (!all_written)
         return ExitCode::file;

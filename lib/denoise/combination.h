@@ -4,9 +4,9 @@
 // called faults. Moves change the squared error s^2 by 2 s u + u^2 + f, where f are the faults.
 //
 // Limits depend on both halves, so the equation holds only for the free moves v = D(A) - A and w = D(B) - B. Limited
-// moves add E (p - v) (B - r) + E (q - w) (A - r). If the filter is right, D(A) and D(B) estimate r, and the faults are
-// v w + (p - v) (q - w). If the limits undo a wrong filter, p - v = -v, both products are equal, and the faults are 0.
-// So the faults of a tile are computed as the difference between the sums of both products. A lower bound is (sum p)
+// moves add E (p - v) (B - r) + E (q - w) (A - r). If D(A) and D(B) are unbiased, they may replace r, and the faults
+// are v w + (p - v) (q - w). If the limits undo a wrong filter, p - v = -v, both products are equal, and the faults are
+// 0. So the faults of a tile are computed as the difference between the sums of both products. A lower bound is (sum p)
 // (sum q) / n for n values (Cauchy's inequality).
 #pragma once
 

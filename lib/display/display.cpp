@@ -35,8 +35,7 @@ void check_numbers(const Subject &subject, const pt_display_info &info) {
         bool holds;
         const char *rule;
     } rules[] = {
-        {"curve", static_cast<double>(info.curve), info.curve <= PT_CURVE_NEUTRAL,
-         "must be a PT_CURVE_* of pt/display.h"},
+        {"curve", static_cast<double>(info.curve), is_curve(info.curve), "must be a PT_CURVE_* of pt/display.h"},
         {"bits", static_cast<double>(info.bits), info.bits == 8 || info.bits == 16, "must be 8 or 16, or 0"},
         {"exposure", info.exposure, std::abs(info.exposure) <= (is_automatic ? 0.0 : largest_exposure),
          is_automatic ? "must be 0, since automatic_exposure is set" : "must be in [-64, 64]"},

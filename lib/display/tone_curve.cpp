@@ -96,6 +96,10 @@ double luminance(const Color &color) {
     return 0.2126 * color[0] + 0.7152 * color[1] + 0.0722 * color[2];
 }
 
+bool is_curve(std::uint32_t curve) {
+    return curve <= PT_CURVE_NEUTRAL;
+}
+
 Color apply_curve(std::uint32_t curve, const Color &radiance) {
     switch (curve) {
     case PT_CURVE_REINHARD:

@@ -196,8 +196,8 @@ std::optional<TileStep> AdaptivePlan::next_together(const TileSamples &samples, 
                     [goal](std::uint32_t) { return goal; }};
 }
 
-// A round does not end while a tile needs samples that only a later call may take. If all tiles that want samples have
-// reached counts_.limit, the tiles with the fewest samples take more.
+// If tiles need more samples than this call may take, the round goes on in the next call. If all tiles that want
+// samples have reached counts_.limit, the tiles with the fewest samples take more.
 std::optional<TileStep> AdaptivePlan::next_apart(const TileSamples &samples, AdaptiveRound &round) const {
     const std::vector<double> squares = film_.squares();
     const std::vector<double> gains = tile_gains(samples, squares);

@@ -74,9 +74,9 @@ double share_added(double pixel_count) {
     return 0.6 / std::sqrt(pixel_count) + 2.5 / pixel_count;
 }
 
-// The logarithm of the root of a sum of m squared normal variables has the standard deviation 1 / sqrt(2 m). Since E
-// x^4 = 3, the variables count as n = m / 3 pixels in pixel_count(). The true error varies as much as its estimate, so
-// the ratio of both has the standard deviation 1 / sqrt(3 n).
+// The logarithm of the root of a sum of m squared normal variables has the standard deviation 1 / sqrt(2 m). A
+// normal variable x has E x^4 = 3, so pixel_count() of m squares is n = m / 3. The true error varies as much as its
+// estimate, so the ratio of both has the standard deviation 1 / sqrt(3 n).
 double spread_of_pixels(double pixel_count) {
     return std::exp(normal_95 / std::sqrt(3.0 * pixel_count));
 }

@@ -64,8 +64,8 @@ public:
         }
     }
 
-    // Called for #include <name>, and if includeLocal has found no file. An empty name in the result means a missing
-    // file; its text is the reason.
+    // Called for #include <name>, and if includeLocal has found no file. A result with an empty
+    // name is a failure, and its text is the reason.
     IncludeResult *includeSystem(const char * /*name*/, const char * /*file*/, std::size_t /*depth*/) override {
         const std::string reason = std::exchange(reason_, "");
         return hand_over(

@@ -41,8 +41,8 @@ void read_first_hits(const Image &image, const RenderSettings &settings, const s
 
 } // namespace
 
-// Parallel rays may start far away from the camera, so sizes of lamps are measured from the origin of the kernel's
-// coordinates.
+// Returns the camera at the origin of the kernel's coordinates, from which apparent sizes of lamps follow. Parallel
+// rays may start far away from the camera.
 Camera Renderer::ray_start() {
     Camera start = *camera_;
     if (start.is_orthographic())

@@ -34,7 +34,7 @@ void refuse_unknown_section(const JsonPlace &place) {
 void check_projection(const pt_camera &camera, const JsonPlace &place) {
     const ViewSize &own = view_sizes[camera.projection];
     for (const ViewSize &size : view_sizes)
-        if (&size != &own && camera.*size.value != 0.0)
+        if (size.value != own.value && camera.*size.value != 0.0)
             refuse(place, concat('"', size.member, "\" is for ", size.article, ' ', size.projection, " projection, ",
                                  own.article, ' ', own.projection, " one has a \"", own.member, '"'));
     if (own.initial == 0.0 && camera.*own.value == 0.0)

@@ -12,8 +12,9 @@ namespace pt {
 
 namespace {
 
-// Every ray tests the spheres outside the tree, which at most doubles the time (default_tree_from). Distant spheres in
-// the tree would make it slower, because boxes are enlarged by 2^-19 of the tree's reach.
+// Every ray tests the spheres outside the tree. These tests take less time than a walk, because even
+// default_tree_from tests take no longer. Distant spheres in the tree would slow walks, because boxes are enlarged by
+// 2^-19 of the tree's reach.
 constexpr std::size_t most_outlying = 50;
 
 // Nearer spheres enlarge the grid by at most this factor. The other spheres then keep 25 of the coordinates' 29 bits,

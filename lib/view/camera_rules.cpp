@@ -48,7 +48,7 @@ void check_fields(const pt_camera &camera, const ViewSize &own, const Projection
     subject.check_each("target", camera.target, length_rule);
     subject.check_each("up", camera.up, finite_rule);
     for (const ViewSize &size : view_sizes)
-        if (&size == &own)
+        if (size.value == own.value)
             subject.check(size.member, camera.*size.value, kind.size_rule);
         else
             subject.require(camera.*size.value == 0.0, size.member, camera.*size.value,

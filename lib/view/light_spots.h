@@ -13,7 +13,7 @@ struct LightSpot {
     std::uint32_t lamp;
     std::uint32_t surface;
     float reflectance;
-    float glossiness; // glossiness of the mirror; -1 for a glow
+    float glossiness; // of the surface that mirrors the lamp; -1: a glow, light of a near lamp on a plane
 };
 
 // Returns no spots for short paths, for many lamps, or if there were more than SPOT_LIMIT. Spots do not depend on the

@@ -32,7 +32,7 @@ class FarAway(unittest.TestCase):
         staged, near = (Staged.of(each, Options(style="matte")) for each in (
             whole, Particles(WATERS, elements=elements[:5])))
         self.assertEqual((staged.layout.camera, len(staged.drawn.centers)), (near.layout.camera, 5))
-        # The center is at x = 1.98. An oxygen of radius 0.66 reaches 2.64 from it, and the ion of radius 1.66 reaches
+        # The median of x is (0.96 + 3) / 2 = 1.98. An oxygen of radius 0.66 reaches 2.64 from it, and the ion of radius 1.66 reaches
         # 999.68.
         self.assertEqual(staged.notes, [f"1 of 6 balls is not drawn, up to {999.68 / 2.64:.3g} times as far away as the others: "
                                         "--frame-all (frame_all=True) draws all"])

@@ -61,7 +61,7 @@ TEST_F(UnknownError, WhileALampIsHardlyMetByChance) {
     EXPECT_EQ(after(16) & unmet, 0U);
 }
 
-// About one in 1,000,000 directions from the floor hits the floor's lobe.
+// About one in 1,000,000 directions at the floor lies in its specular lobe.
 TEST_F(UnknownError, WhileALobeIsHardlyMetByChance) {
     for (const uint32_t estimator : {PT_ESTIMATOR_UNIFORM, PT_ESTIMATOR_COSINE, PT_ESTIMATOR_BSDF}) {
         set_up(50.0, estimator, 2, {0.0, 100.0, 0.0}, 1.0, 1e6F);

@@ -109,7 +109,7 @@ void read_claims(ByteReader &bytes, Input &input) {
         if (bytes.one_in(16))
             size = bytes.one_in(4) ? bytes.raw<std::uint32_t>() : bytes.below(256);
     }
-    // No caller's pt_scene ends within a pointer.
+    // Versions of pt_scene contain whole pointers, so their sizes are multiples of 8.
     std::uint32_t &scene_size = input.struct_sizes[0];
     if (scene_size < sizeof(pt_scene) && scene_size > offsetof(pt_scene, materials))
         scene_size &= ~7U;

@@ -56,7 +56,7 @@ TEST(RayStart, IsThePinholeInWideViews) {
 
 constexpr double narrow = 1e-5;
 
-// The margin is half the view's diagonal at this distance, 7.07e-6 of the distance.
+// Rays start before the surface by half the view's diagonal there, 7.07e-6 of its distance.
 TEST(RayStart, IsJustBeforeTheFirstSurfaceInView) {
     const pt::Camera camera = looking_along(oblique, narrow);
     const double width = std::tan(0.5 * narrow) * std::sqrt(2.0);

@@ -24,7 +24,7 @@ def to_ball(start, way, radius):
 
 
 def rims(camera, aspect, centers, radii):
-    """Yields the places of the balls' rims toward each side of the picture: 1 is at the side, and 0 in the middle."""
+    """For each edge of the picture, yields how far balls reach toward it: 0 is the picture's middle, and 1 the edge."""
     right, above, back = camera.axes()
     ways = centers - np.array(camera.position)
     depth = -(ways @ back)

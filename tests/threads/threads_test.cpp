@@ -84,7 +84,7 @@ TEST(ThreadsTest, AnotherThreadStopsACall) {
     EXPECT_EQ(result, PT_CANCELLED);
 }
 
-// The thread cancels polls and waiting calls. A cancellation may also come too early or too late.
+// This thread cancels while another one polls or waits. A cancellation may also come too early or too late.
 TEST(ThreadsTest, AnyThreadCancels) {
     pt_context *const context = ready_context(0);
     ASSERT_NE(context, nullptr);

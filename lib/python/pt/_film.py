@@ -77,7 +77,7 @@ class Film:
             return cls(file.read())
 
     def save(self, path: Path) -> None:
-        """Writes a file atomically, also for `pt merge`."""
+        """Writes a file atomically. `pt merge` can read it."""
         write_atomically(path, lambda file: self.stream(file.write))
 
     def stream(self, write: Callable[[bytes], object]) -> None:

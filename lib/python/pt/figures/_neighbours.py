@@ -65,7 +65,8 @@ def _is_first(first: Array, second: Array, steps: Array) -> Array:
 
 
 def _images(positions: Array, cell: Cell | None, cutoff: float) -> tuple[Array, Array]:
-    """Returns indices, and shifts in edges of the cell: first each particle in the cell, then each image within the cutoff."""
+    """Returns indices of particles, and shifts as multiples of the cell's edges. Particles moved into the cell come first, then
+    their images within the cutoff."""
     sources = np.arange(len(positions))
     if cell is None:
         return sources, np.zeros((len(positions), 3))

@@ -21,7 +21,7 @@ FIRST_SAMPLES: Final = 16  # fewest samples with a stated error
 MOST_SAMPLES: Final = 128  # of a pixel; fine textures hide the remaining noise
 WORST: Final = 1.5  # largest noise of a neighbourhood, relative to MOST_NOISE; by taste
 FLOOR: Final = 1.0  # like WORST, for a floor before its shadows are smoothed
-SHARE: Final = 1.03  # rounds aim at this multiple of the allowed square, because quasi-random samples do better than random ones
+SHARE: Final = 1.03  # rounds aim at this multiple of the allowed square error; quasi-random samples have less than predicted
 SEQUENCES: Final = 1.0 / math.sqrt(7.0)  # the error of quasi-random points may be this fraction of the stated one
 
 Show = Callable[[Array, Array], Array]  # converts light to 16 bits, with the exposure of an image
@@ -38,7 +38,7 @@ class Noise:
 
     @staticmethod
     def of(squares: Doubles) -> Noise:
-        """The bounds are as wide as for n = (sum of squares)^2 / (sum of fourth powers) equal pixels."""
+        """The bounds are those of n = (sum of squares)^2 / (sum of squared squares) pixels of equal error."""
         if not squares.size:
             return Noise(0.0, 0.0, 0.0)
         mean, spread = float(squares.mean()), 1.96 * math.sqrt(float(np.square(squares).sum())) / squares.size

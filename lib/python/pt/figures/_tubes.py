@@ -31,7 +31,7 @@ def trace_of(particles: Particles) -> Array:
 
 
 def tubes_of(particles: Particles, trace: Array, radius: float | None) -> Rods:
-    """Each chain's capsules follow a Catmull-Rom curve through the atoms of `trace`. Each has the color of the nearest atom."""
+    """Each chain's capsules follow a Catmull-Rom curve through the atoms of `trace`. A capsule has the color of the nearest atom."""
     rows = np.flatnonzero(trace)
     places = particles.positions[rows].astype(np.float64)
     steps = np.linalg.norm(np.diff(places, axis=0), axis=1)
