@@ -1,0 +1,104 @@
+#include "tests/denoise/denoising.h"
+
+#include <chrono>
+#include <string>
+#include <thread>
+
+namespace {
+
+struct Rounds {
+    explicit Rounds(std::uint32_t sample_count) {
+        info.struct_size = sizeof info;
+        info.sample_count = sample_count;
+        info.render = [](void *user, std::uint32_t end) { return static_cast<Rounds *>(user)->add(end); };
+        info.render_user = this;
+    }
+
+    std::int32_t add(std::uint32_t end) {
+        std::this_thread::sleep_for(duration);
+        if (ends.size() == most_rounds)
+            return 7;
+        ends.push_back(end);
+        denoising.first[0] = static_cast<float>(end);
+        return 0;
+    }
+
+    pt_result run() {
+        setenv("FAKE_OIDN", "identity", 1);
+        return pt_denoise_rounds(&info, &denoising.info, &denoising.error);
+    }
+
+    Denoising denoising{0, much_noise};
+    pt_rounds_info info{};
+    std::size_t most_rounds = SIZE_MAX;
+    std::chrono::milliseconds duration{0};
+    std::vector<std::uint32_t> ends;
+};
+
+TEST(DenoiseRounds, AreHalfAsLargeAgain) {
+    using Ends = std::vector<std::uint32_t>;
+    const auto ends = [](std::uint32_t sample_count, double target_error, double time_limit) {
+        Rounds rounds(sample_count);
+        rounds.info.target_error = target_error;
+        rounds.info.time_limit = time_limit;
+        EXPECT_EQ(rounds.run(), PT_OK);
+        return rounds.ends;
+    };
+    EXPECT_EQ(ends(100, 1e-9, 0.0), (Ends{16, 24, 36, 54, 81, 100}));
+    EXPECT_EQ(ends(100, 1e-9, 1e9), (Ends{16, 24, 36, 54, 81, 100}));
+    EXPECT_EQ(ends(16, 1e-9, 0.0), Ends{16});
+    EXPECT_EQ(ends(10, 1e-9, 0.0), Ends{10});
+    EXPECT_EQ(ends(100, 0.0, 0.0), Ends{100});
+    EXPECT_EQ(ends(100, 0.0, 1e-9), Ends{16});
+}
+
+// The first round takes at least 5/6 of the time.
+TEST(DenoiseRounds, FitTheTime) {
+    Rounds rounds(100);
+    rounds.info.time_limit = 0.3;
+    rounds.duration = std::chrono::milliseconds(250);
+    EXPECT_EQ(rounds.run(), PT_OK);
+    EXPECT_LE(rounds.ends.back(), 19U);
+}
+
+TEST(DenoiseRounds, EndAtTheTargetError) {
+    Rounds once(16);
+    ASSERT_EQ(once.run(), PT_OK);
+    const double target = once.denoising.error.relative_rmse_high;
+    for (const bool reaches : {false, true}) {
+        Rounds rounds(16);
+        rounds.info.target_error = reaches ? target : std::nextafter(target, 0.0);
+        EXPECT_EQ(rounds.run(), reaches ? PT_TARGET_REACHED : PT_OK);
+        EXPECT_EQ(rounds.denoising.denoised, once.denoising.denoised);
+    }
+}
+
+TEST(DenoiseRounds, KeepTheLastPictureIfStopped) {
+    Rounds rounds(100);
+    rounds.info.target_error = 1e-9;
+    rounds.most_rounds = 0;
+    EXPECT_EQ(rounds.run(), PT_CANCELLED);
+    EXPECT_EQ(rounds.denoising.denoised[0], -1.0F);
+    rounds.most_rounds = 2;
+    EXPECT_EQ(rounds.run(), PT_CANCELLED);
+    EXPECT_EQ(rounds.ends, (std::vector<std::uint32_t>{16, 24}));
+    const Pixels stopped = rounds.denoising.denoised;
+    ASSERT_EQ(pt_denoise(&rounds.denoising.info, &rounds.denoising.error), PT_OK);
+    EXPECT_EQ(stopped, rounds.denoising.denoised);
+}
+
+TEST(DenoiseRounds, RefuseWhatBreaksARule) {
+    const auto refused = [](const std::function<void(Rounds &)> &change, const std::string &message) {
+        Rounds rounds(100);
+        change(rounds);
+        EXPECT_EQ(rounds.run(), PT_ERROR_INVALID_ARGUMENT) << message;
+        EXPECT_EQ(pt_last_error(nullptr), message);
+    };
+    refused([](Rounds &r) { r.info.sample_count = 0; }, "rounds.sample_count = 0: must be >= 1");
+    refused([](Rounds &r) { r.info.target_error = NAN; }, "rounds.target_error = nan: must be finite and >= 0");
+    refused([](Rounds &r) { r.info.time_limit = -1.0; }, "rounds.time_limit = -1: must be finite and >= 0");
+    refused([](Rounds &r) { r.info.render = nullptr; }, "rounds.render = NULL: must not be NULL");
+    refused([](Rounds &r) { r.denoising.info.albedo = nullptr; }, "denoise.albedo = NULL: must not be NULL");
+}
+
+} // namespace
