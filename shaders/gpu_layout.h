@@ -311,7 +311,7 @@ struct EstimateConstants {
     uint strip_pixel_count;
     uint row_count;
     uint first_tile;
-    uvec2 sample_counts;   // samples in the older and the newer part; ANY_COUNT: tiles differ
+    uvec2 sample_counts;   // samples of a pixel in the two parts; ANY_COUNT: tiles have other numbers
     uint by_tile;          // 1: also writes each tile's errors
     float relative_offset; // in film units
     float relative_scale;

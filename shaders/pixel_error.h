@@ -56,8 +56,8 @@ PT_FUNCTION real mean_besides_and_without_largest(ValueSet values, real value)
     return more_of(values.sum - value - largest_of_others, 0.0) / more_of(values.count - 2.0, 1.0);
 }
 
-// Brightness around a pixel, from the median of its neighbors and from its tile. The brightness is at least an eighth
-// of a brighter neighbor, because the mean of its eight neighbors cannot be less.
+// Brightness around a pixel, from the median of its neighbors and from its tile. If a neighbor is brighter than the
+// pixel, the result is at least an eighth of it, like the mean of the pixel's eight neighbors.
 PT_FUNCTION real around(real mean, ValueSet tile, real median_beside, real largest_beside)
 {
     real of_brighter = largest_beside > mean ? 0.125 * largest_beside : 0.0;
@@ -69,8 +69,8 @@ PT_FUNCTION real around(real mean, ValueSet tile, real median_beside, real large
 // At an edge the surroundings are bright, but at least half of the samples are dark. Let a sample have the value M with
 // probability p, otherwise 0, and let exactly one of N samples have the value M. Then the mean is T = M / N, the
 // squared error is about T^2, and the limit is M p. If p is uniformly distributed a priori, y = N p has the density y
-// e^-y. The expectation of T^2 / (M^2 p^2 + k^2), with k^2 = known, is the integral of y e^-y / (y^2 + k^2 / T^2). This
-// is about ln(T / k) - 1. The 1 depends on the prior and is left out, because the result then fits the calibration
+// e^-y. With k^2 = Limit.known, the expectation of T^2 / (M^2 p^2 + k^2) is the integral of y e^-y / (y^2 + k^2 / T^2).
+// This is about ln(T / k) - 1. The 1 depends on the prior and is left out, because the result then fits the calibration
 // scenes.
 struct Limit {
     real square;       // limit^2 + offset^2

@@ -100,8 +100,8 @@ struct Walk {
 // On lavapipe, invocations run in lockstep, because all execute every branch of the code.
 const bool IN_STEP = WALK_TRIPS == 0u;
 
-// Groups to be entered. The stack is outside Walk, because functions copy arguments. With IN_STEP all accesses have
-// constant indices, with the last group at 0, because lavapipe handles other accesses one invocation at a time.
+// Groups to be entered. The stack is outside Walk, because functions copy arguments. lavapipe handles accesses with
+// variable indices one invocation at a time. So with IN_STEP all indices are constant, and the last group is at 0.
 const uint STACK_SIZE = TREE_LEVELS > 0u ? TREE_LEVELS : 1u;
 uint walk_stack[STACK_SIZE];
 

@@ -72,8 +72,7 @@ int grade(const std::string &folder, const std::string &device) {
 
 constexpr const char *next_step = "next";
 
-// A mistake in the next step may already spoil the pictures of this one, whose patterns do not include it. So if a
-// wrong step fits no pattern, the next step is checked too.
+// A mistake of the next step may already spoil pictures of this one, and only the next step has its name.
 int check_next(CourseKernels &kernels) {
     const std::vector<CourseStep> &steps = course_steps();
     for (auto step = steps.begin(); step != steps.end(); ++step) {

@@ -12,7 +12,7 @@ SceneFile equal_light(const char *name, std::uint32_t length, std::uint32_t esti
 
 } // namespace
 
-// The exercise prescribes 6 points of step 2, 10 of step 3 and all of step 6. The other steps share the rest of 100.
+// The exercise fixes 6 of the points of step 2, 10 of step 3, and all of 6a to 6c. The rest of 100 is divided here.
 const std::vector<CourseStep> &course_steps() {
     static const std::vector<CourseStep> steps{
         {"1", "emission", 10, measure_emission, emission_patterns, {}},

@@ -22,7 +22,8 @@ constexpr double square_light(double x) {
     return (1.0 - x * x) * (1.0 - x * x);
 }
 
-// The sample goes to one of `count` lamps. Averaged over the cone, its square is count (2 (1 - x) cosine)^2.
+// The sample goes to one of `count` lamps. Its mean square is count times the mean of
+// (2 (1 - x) cosine)^2 over the cone.
 constexpr double variance_of_choice(double x, double count) {
     return count * 4.0 / 3.0 * (1.0 - x) * (1.0 - x * x * x) / square_light(x) - 1.0;
 }

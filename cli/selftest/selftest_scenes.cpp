@@ -122,8 +122,8 @@ SelftestScene sharp_lobe() {
             tangent / std::sqrt(double{scene.materials[1].glossiness}), sample_rounding};
 }
 
-// A unit lamp moves along the axis from a to b. It covers pi / (z^2 - 1) of the image plane. The
-// antiderivative is F(z) = pi log((z - 1) / (z + 1)) / 2, so the average over the motion is (F(b) - F(a)) / (b - a).
+// A unit lamp moves along the axis from a to b. It covers f(z) = pi / (z^2 - 1) of the image plane.
+// With F(z) = pi log((z - 1) / (z + 1)) / 2, the integral of f, the average is (F(b) - F(a)) / (b - a).
 // The lamp is always fully in view: 2 tan(fov / 2) > 2 / sqrt(a^2 - 1).
 SelftestScene receding_lamp() {
     const SceneFile scene = scene_of(64, 64, R"(, "max_path_length": 1}, "materials": {"lamp": {"emission": 1}},

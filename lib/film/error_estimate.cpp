@@ -14,7 +14,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double channels = 3.0;
 
-// An estimate is uncertain if more than this fraction of the squared error is unseen light. Calibrated.
+// An estimate is uncertain if unseen light causes more than this fraction of the squared error. Calibrated.
 constexpr double much_unseen = 0.1;
 
 // An estimate is uncertain if rarer light could multiply the squared error by this factor. Calibrated.

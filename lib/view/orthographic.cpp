@@ -73,9 +73,9 @@ private:
         return slope > 0.0 ? (plane.offset - across) / slope : out_of_view;
     }
 
-    // The line of the cylinder that is nearest to the center hits the ball first. Let a be the center's depth and c its
-    // distance from the line. The depth is a - sqrt(r^2 - c^2) = (a^2 + c^2 - r^2) / (a + sqrt(r^2 - c^2)). The second
-    // form avoids cancellation.
+    // The ray nearest to the ball's center hits the ball first. Let a be the center's depth and c its distance from
+    // this ray. The depth is a - sqrt(r^2 - c^2) = (a^2 + c^2 - r^2) / (a + sqrt(r^2 - c^2)). The second form avoids
+    // cancellation.
     double depth_of_ball(const glm::dvec3 &center, double radius) const override {
         const double depth = glm::dot(center, camera_.forward);
         const double across = glm::length(center - depth * camera_.forward);

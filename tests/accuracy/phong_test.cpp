@@ -83,8 +83,8 @@ Real power(Real cosine, Real n) {
 // The lobe is max(0, wo . r)^n. mirror_error is the error of r. Let u = 2^-24 and y = |wo - r|^2 / 2. Differences add
 // errors of 2 u, squares add u, and sums add 2 u. If the lengths are 1 + a and 1 + b, y becomes y (1 + a) (1 + b) + (a
 // - b)^2 / 2. The relative error of log2(1 - y) is largest at y = 1/4, where the value is 0.415 and an ulp is u / 2: 18
-// ulp = 9 u < 22 u * 0.415. The product with n adds u, and 2^x adds 3 + 2 |x| ulp of at most 2 u. Below 2^-99 the lobe
-// is 0.
+// ulp = 9 u < 22 u * 0.415. The product with n adds u, and 2^x adds 3 + 2 |x| ulp, where an ulp is at most 2 u. Below
+// 2^-99 the lobe is 0.
 Bounded lobe(const Direction &r, const Direction &wo, Real r_length, Real wo_length, Real mirror_error, Real n) {
     const Direction chord = wo - r;
     const Real y = glm::dot(chord, chord) / 2;
@@ -103,7 +103,8 @@ Bounded lobe_about_axis(const Item &item) {
                 length_error(item.outgoing), 0, item.glossiness);
 }
 
-// In I - 2 (N . I) N, the dot product has an error of 2 u, the second term of 4 u + 2 u, and the difference of u. Four
+// Errors in I - 2 (N . I) N, with u = half_ulp: 2 u in the dot product, 4 u + 2 u in the second term, u in the
+// difference. Four
 // times the deviation of the normal's length from 1 is added.
 Bounded lobe_about_mirror(const Item &item) {
     const Direction normal = glm::normalize(Direction(item.normal));

@@ -219,7 +219,8 @@ struct ModelFilm {
     bool has_target_error = false;
 };
 
-// The squared error of a tile is v / n times a random factor for each n. `spread` is the standard deviation of log(v).
+// After n samples a tile of variance v has the squared error v / n, times a random factor that differs for each n.
+// `spread` is the standard deviation of log(v).
 class ModelErrors {
 public:
     ModelErrors(std::uint32_t seed, double spread) : seed_(seed) {

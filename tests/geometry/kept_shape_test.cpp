@@ -133,7 +133,7 @@ TEST(KeptShape, IsNotForTwins) {
     EXPECT_EQ(of_twins.sphere_count(), ball_count - 1);
     EXPECT_FALSE(kept(of_twins, spheres));
     EXPECT_FALSE(kept(of_twins, with_twins));
-    // These spheres are not twins. At equal distances only their order decides.
+    // Spheres that move differently are no twins. At equal distances their order decides.
     with_twins[1500].motion[0] = 0.5;
     EXPECT_EQ(tree_of(with_twins).sphere_count(), ball_count);
     EXPECT_FALSE(kept(tree, with_twins));

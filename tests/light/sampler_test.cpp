@@ -111,7 +111,7 @@ TEST(SamplerHalton, IsTheRadicalInverseInEveryPixel) {
     }
 }
 
-// After the shared blocks, branch b of B has in sample i the numbers of sample B i + b.
+// Branch b of B has in sample i the numbers of sample B * i + b, in blocks behind the shared ones.
 TEST(SamplerHalton, OfABranchIsTheRadicalInverseOfASampleOfItsOwn) {
     constexpr std::uint32_t branches = 4;
     Request request;

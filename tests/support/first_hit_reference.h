@@ -150,7 +150,8 @@ struct View {
     }
 };
 
-// Follows the library's own rule. A lamp is a sphere, unless its radius exceeds 65536 times the height of its center.
+// Follows the library's own rule. An emitting sphere becomes a plane only if its radius exceeds 65536 times the
+// camera's distance from its surface.
 inline bool is_held_as_plane(const pt_sphere &sphere, const pt_material &material, const View &view) {
     const auto vector = [](const double(&v)[3]) { return glm::dvec3(v[0], v[1], v[2]); };
     pt::Camera start{};

@@ -238,7 +238,7 @@ class Context:
         handle, guard = self._handle, guard or self._guard()
         if handle is None:
             raise InvalidStateError("the context is closed")
-        # A lock would not suffice: KeyboardInterrupt may be raised when acquire() returns, but not between this test and `try`. Without a
+        # Not a lock: KeyboardInterrupt may come after acquire() and before `try`. It cannot come between this test and `try`. Without a
         # global interpreter lock (PEP 703) the library itself refuses a second call.
         if self._in_call:
             raise InvalidStateError("another call on this context is under way")

@@ -38,7 +38,7 @@ class Noise:
 
     @staticmethod
     def of(squares: Doubles) -> Noise:
-        """The bounds are those of n = (sum of squares)^2 / (sum of squared squares) pixels of equal error."""
+        """The bounds are as for n = (sum of squares)^2 / (sum of squared squares) pixels of equal error."""
         if not squares.size:
             return Noise(0.0, 0.0, 0.0)
         mean, spread = float(squares.mean()), 1.96 * math.sqrt(float(np.square(squares).sum())) / squares.size

@@ -132,7 +132,7 @@ class Rows:
         return result
 
     def _find_words(self, data: bytes) -> None:
-        """A column has words if its first field is no number and the column has no positions."""
+        """A column has words if its first field is no number and layout.positions lacks it."""
         layout = self.layout
         lines = (line.decode("utf-8", "replace") for line in io.BytesIO(data))
         first = next((line for line in lines if line.strip() and not (layout.is_table and is_comment(line))), "")
