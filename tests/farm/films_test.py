@@ -51,8 +51,10 @@ def slow(name, part, codecs):
 
 def waiting(path):
     def task(name, part, codecs):
-        if distributed.get_worker().name == "failing":
+        worker = distributed.get_worker().name
+        if worker == "failing":
             return _task.Outcome(error="this disk is full", may_help_elsewhere=True)
+        open(f"{path}.{worker}", "w").close()
         while not os.path.exists(path):
             time.sleep(0.01)
         return _task.render_part(name, part, codecs)
@@ -152,26 +154,23 @@ class Farm(unittest.TestCase):
         return self.cluster.workers[name].pid if hasattr(self.cluster.workers[name], "pid") else \
             self.cluster.workers[name].process.pid
 
-    def harm(self, workers, stopped=None, killed=None):
-        """Stops or kills a worker while all workers have parts. A stopped worker continues when other workers have its
-        parts."""
+    def harm(self, stopped, killed):
+        """Stops and kills workers that have parts, after another one has failed. A stopped worker continues when other
+        workers have its parts."""
         go = os.path.join(self.enterContext(tempfile.TemporaryDirectory()), "go")
-        calls, held = [], []
+        held = []
 
         def progress(seen, film):
-            if len(calls) < 2 and seen.workers + (seen.failed >= MOST_FAILURES) == workers:
-                calls.append(seen)
-                if len(calls) == 2:
-                    if stopped is not None:
-                        held.append(self.process_of(stopped))
-                        os.kill(held[0], signal.SIGSTOP)
-                    if killed is not None:
-                        address = self.cluster.workers[killed].worker_address
-                        os.kill(self.process_of(killed), signal.SIGKILL)
-                        while address in self.cluster.scheduler.workers:  # The worker's parts must count as lost, not as late.
-                            time.sleep(0.01)
-                        time.sleep(LOOK_SECONDS)
-                    open(go, "w").close()
+            have_parts = all(os.path.exists(f"{go}.{worker}") for worker in (stopped, killed))
+            if have_parts and seen.failed >= MOST_FAILURES and not os.path.exists(go):
+                held.append(self.process_of(stopped))
+                os.kill(held[0], signal.SIGSTOP)
+                address = self.cluster.workers[killed].worker_address
+                os.kill(self.process_of(killed), signal.SIGKILL)
+                while address in self.cluster.scheduler.workers:  # The worker's parts must count as lost, not as late.
+                    time.sleep(0.01)
+                time.sleep(LOOK_SECONDS)
+                open(go, "w").close()
             if seen.repeated and held:
                 os.kill(held.pop(), signal.SIGCONT)
         return {"progress": progress, "task": waiting(go)}
@@ -179,7 +178,7 @@ class Farm(unittest.TestCase):
     def test_of_four_one_fails_one_is_killed_and_one_stopped(self):
         nanny = {"cls": distributed.Nanny, "options": {"nthreads": 1}}
         with own_cluster({name: nanny for name in ("failing", "killed", "stopped", "healthy")}) as cluster:
-            found = self.farm(cluster=cluster, **self.harm(4, "stopped", "killed"))
+            found = self.farm(cluster=cluster, **self.harm("stopped", "killed"))
         self.assertGreaterEqual(found.progress.failed, 1)
         self.assertGreaterEqual(found.progress.repeated, 1)
         self.assertGreaterEqual(found.progress.lost, 1)
