@@ -164,8 +164,8 @@ uint choose_spot(Spots spots, float number)
     return chosen;
 }
 
-// For an image, samples a lobe about its direction. To a glow, the direction leads to
-// the point where a ray of cosine density from the lamp hits the plane.
+// For an image, samples a lobe about its direction. For a glow, returns the direction
+// to the point where a ray of cosine density from the lamp hits the plane.
 vec3 direction_to_spot(Spots spots, uint spot, vec3 position, float time, vec2 place)
 {
     SpotWord word = spot_word(spot);

@@ -69,7 +69,7 @@ inline std::int32_t call_listener(void *user, double share) {
     return (*static_cast<const std::function<bool(double)> *>(user))(share) ? 0 : 1;
 }
 
-// Both texts may be empty. They must outlive the result.
+// The texts must outlive the result.
 inline pt_create_info create_info(const std::string &device, const std::string &shader_dir) {
     auto info = sized<pt_create_info>();
     info.device = device.empty() ? nullptr : device.c_str();

@@ -39,7 +39,7 @@ void require_film(pt_result result, const std::string &path, const pt_context *c
         throw Failure(exit_code_of(result), film_words(path, last_error(context)));
 }
 
-// A fast level with slightly larger files.
+// Fast, with slightly larger files.
 constexpr int compression_level = -1;
 
 // A block of at most 128 KiB takes at least 4 bytes (RFC 8878, 3.1.1.2), so files with a higher ratio are damaged.

@@ -31,7 +31,7 @@ struct Denoised {
 
 RenderedImage denoised(const std::string &library, Halves halves);
 
-// Calls pt_denoise_rounds. Throws Failure.
+// Throws Failure.
 Denoised denoised_rounds(const std::string &library, const Rectangle &part, pt_rounds_info rounds,
                          const RenderHalves &render);
 

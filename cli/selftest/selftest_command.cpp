@@ -83,7 +83,6 @@ SelftestCheck check_splits(const Context &context) {
     return {"invariance", "samples split over calls", differing, 0.0, "values", "that differ in \"" + ball.name + "\""};
 }
 
-// Also checks that the library rejected no sample.
 std::vector<SelftestCheck> check_scenes(const Context &context, const std::vector<SelftestScene> &scenes,
                                         const std::string &group) {
     std::vector<SelftestCheck> checks;
