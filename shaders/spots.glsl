@@ -164,8 +164,8 @@ uint choose_spot(Spots spots, float number)
     return chosen;
 }
 
-// For an image, samples a lobe about its direction. For a glow, returns the direction
-// to the point where a ray of cosine density from the lamp hits the plane.
+// An image is sampled by a lobe about its direction. A glow is sampled at the point where a ray of cosine density from
+// the lamp hits the plane.
 vec3 direction_to_spot(Spots spots, uint spot, vec3 position, float time, vec2 place)
 {
     SpotWord word = spot_word(spot);

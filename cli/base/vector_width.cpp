@@ -13,7 +13,6 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <cstring>
 #include <ctime>
 #include <fstream>
 #include <limits>
@@ -39,6 +38,7 @@ constexpr const char *no_cache_name = vector_width_variables[2];
 constexpr unsigned int narrow = 256;
 constexpr unsigned int wide = 512;
 constexpr std::size_t longest_record = 1024;
+constexpr std::uint64_t run_count = 6;
 
 // Building four kernels takes about as long as this many samples.
 constexpr std::uint64_t measured_from = std::uint64_t{1} << 24;
@@ -123,7 +123,7 @@ double seconds_at(unsigned int bits, const std::string &device, const TrialScene
         scene.describe(created) < 0 || take_samples(created, 1, 0) < 0)
         return failed;
     double least = failed;
-    for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    for (std::uint64_t seed = 0; seed < run_count; ++seed) {
         const std::clock_t start = std::clock();
         if (take_samples(created, sample_count, seed) < 0)
             return failed;
