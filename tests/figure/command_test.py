@@ -12,9 +12,8 @@ import unittest.mock
 
 import numpy as np
 import pt
-from pt.figures._command import EPILOG, main, numbered, parser, staged
+from pt.figures._command import EPILOG, main, numbered, parser
 from pt.figures._movies import write_movie
-from pt.figures._options import Options
 
 if importlib.util.find_spec("matplotlib") is None:
     print("matplotlib is not installed")
@@ -73,9 +72,6 @@ class Command(unittest.TestCase):
         self.assertEqual(len({(self.folder / name).read_bytes() for name in self.names("*.png")}), 6)
         self.assertEqual(numbered("a#b##.png", 7), "a#b07.png")
         self.assertIn("-i f-%03d.png", EPILOG)
-        given = parser().parse_args([str(self.folder / "points.npy"), "--frames", "0-2", "--trails", "1"])
-        trails = [[len(rods.atoms) for rods in each.drawn.rods] for _, each in staged(given, Options(size=(48, 32)))]
-        self.assertEqual(trails, [[], [30], [30]])
 
     def test_a_film(self):
         with unittest.mock.patch.dict(sys.modules, {"imageio_ffmpeg": None}):
@@ -161,7 +157,6 @@ class Command(unittest.TestCase):
                 (2, "JPEG has no alpha", ("water.xyz", "-o", "a.jpg", "--background", "transparent")),
                 (2, "a series needs # signs", ("water.xyz", "-o", "a.png", "--turntable", "4")),
                 (2, "not with --frames", ("water.xyz", "-o", "a#.png", "--turntable", "4", "--frames", "0-1")),
-                (2, "--trails: only with --frames", ("points.npy", "-o", "a.png", "--trails", "4")),
                 (2, "standard input cannot be read twice", ("-", "-o", "a#.png", "--frames", "0-1")),
                 (2, "must be LO,HI", ("water.xyz", "-o", "a.png", "--color-range", "3")),
                 (2, "must be WxH", ("water.xyz", "-o", "a.png", "--size", "3")),

@@ -250,19 +250,6 @@ class Users(unittest.TestCase):
             load({**places, "name": ["a", "b"]}, columns="radius=name")
 
 
-class Coinciding(unittest.TestCase):
-    def test_particles_in_one_place_are_counted(self):
-        apart = np.random.default_rng(4).normal(size=(210_000, 3)).astype(np.float32)
-        for count, words in ((99, ["33 of 132 particles lie"]), (210_000, ["about ", " of 280,000 particles lie"])):
-            places = apart[:count]
-            self.assertEqual(load(places).notes, [])
-            notes = " ".join(load(np.concatenate([places, places[::3]])).notes)
-            for each in words:
-                self.assertIn(each, notes)
-        # Each of the 70,000 particles belongs to the compared sample with the probability 1/4.
-        self.assertLess(abs(int(notes.split()[1].replace(",", "")) - 70_000), 5 * 4 * (70_000 * 3 / 16)**0.5)
-
-
 class Messages(InAFolder):
     def test_they_name_place_value_and_rule(self):
         most = "18446744073709551615"

@@ -98,19 +98,6 @@ CML = """<?xml version="1.0"?><molecule xmlns="http://www.xml-cml.org/schema"><a
 <atom id="a1" elementType="C" x3="0" y3="0" z3="0"/><atom id="a2" elementType="Br" x3="1.9" y3="0" z3="0"/></atomArray>
 <bondArray><bond atomRefs2="a1 a2" order="1"/></bondArray></molecule>
 """
-YAML = """---
-creator: LAMMPS
-timestep: {step}
-natoms: {count}
-boundary: [ p, p, f, f, p, p, ]
-box:
-  - [ -1, 3 ]
-  - [ 0, 2 ]
-  - [ 0, 5 ]
-keywords: [ id, type, x, y, z, ]
-data:
-{rows}...
-"""
 
 # Rows: name, text, elements or types, and further content (places along x, lengths of the cell, origin, bonds, and
 # words of a note).
@@ -181,12 +168,6 @@ CASES = (
      "\nEllipsoids\n\n1 3 2 1 1 0 0 0\n2 5 5 5 1 0 0 0\n", [1, 1], {"radii": [2.5, 1], "note": "2 ellipsoids are drawn as balls"}),
     ("united.data", lammps("1 1 0 0 0", "2 2 1 0 0", masses="\nMasses\n\n1 15.035\n2 14.027\n", hint=" # atomic"), "C C", {}),
     ("tilted.data", lammps("1 1 0 0 0", types=1, more="1 0 0 xy xz yz"), [1], {"cell": [4, 17**0.5, 5]}),
-    ("a.yaml", YAML.format(step=0, count=2, rows="  - [ 2, 1, 1.0, 0, -1e-3, ]\n  - [ 1, 2, -2, 0, 0, ]\n"), [1, 2],
-     {"x": [1, -2], "cell": [4, 2, 5], "origin": [-1, 0, 0], "periodic": [True, False, True]}),
-    ("tilted.yaml", YAML.format(step=0, count=1, rows="  - [ 1, 1, 4, 0, 0, ]\n").replace("keywords", "  - [ -1, 0.5, 0.25 ]\nkeywords"),
-     [1], {"cell": [2.5, 4.0625**0.5, 25.3125**0.5], "origin": [0, 0, 0]}),
-    ("empty.yaml", YAML.format(step=0, count=1, rows="  - [ 1, 1, 4, 0, 0, ]\n") + YAML.format(step=1, count=0, rows=""), [1],
-     {"x": [4], "note": "have no particles are not counted (1)"}),
 
     ("POSCAR", POSCAR.format(scale=2, rest="Na Cl\n1 2\nDirect\n0 0 0\n0.5 0 0\n0.25 0 0 Cl"), "Na Cl Cl", {"x": [0, 2, 1], "cell": [4, 6, 8]}),
     ("old.vasp", POSCAR.format(scale=1, rest="1 1\nSelective dynamics\nCartesian\n1 0 0 T T F\n0 0 0 T T T").replace("made up", "Fe O"),

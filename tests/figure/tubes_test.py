@@ -71,6 +71,8 @@ class Models(unittest.TestCase):
         bonds, tube = drawn.rods
         self.assertEqual((len(drawn.centers), len(bonds.atoms), len(tube.atoms)), (14, 2, 11 * PIECES))
         np.testing.assert_allclose(drawn.radii[:12], tube.radius)
+        for shown in (drawn, prepare(particles, Options(model="tube", where="index 3-8"))):
+            np.testing.assert_allclose(shown.begins(shown.rods[1])[1:], shown.ends(shown.rods[1])[:-1], atol=1e-9)
         with self.assertRaisesRegex(ValueError, "model = 'tube': array has no atoms CA"):
             prepare(particles_of(side), Options(model="tube"))
         picked = prepare(particles, Options(model="space-filling,within 1 of index 0-5=tube"))

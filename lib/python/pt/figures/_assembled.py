@@ -6,7 +6,7 @@ from typing import Any, Final
 import numpy as np
 import numpy.typing as npt
 
-from pt._fit import chunks, coordinates
+from pt._fit import chunks
 from pt.figures._cell import Cell
 from pt.figures._columns import ELEMENTS, TYPES, column_name, coordinate_names, first_of, plain_name, split_columns
 from pt.figures._elements import elements_of, listed
@@ -17,9 +17,6 @@ Array = npt.NDArray[Any]
 
 NEGLIGIBLE: Final = 1e-12
 MANY_COLUMNS: Final = 1000
-MOST_COMPARED: Final = 2_000_000
-MOST_SORTED: Final = 100_000
-_ODD: Final = np.uint64(0x9E3779B97F4A7C15)  # 2^64 over the golden ratio: Knuth's multiplicative hash
 _COLORS: Final = (("red", "green", "blue", "alpha"), ("r", "g", "b", "a"),
                   ("diffuse_red", "diffuse_green", "diffuse_blue", "diffuse_alpha"),
                   *(tuple(f"{name}[{i}]" for i in range(4)) for name in ("color", "colors", "rgb", "rgba")),
@@ -109,14 +106,11 @@ def _finite(particles: Particles, drop: bool) -> Particles:
     for column in (*particles.positions.T[1:], *(() if particles.radii is None else (particles.radii,))):
         good &= np.isfinite(column)
     if good.all():
-        _note_coinciding(particles)
         return particles
     count = int(len(good) - good.sum())
     if drop and count < len(good):
         particles.notes.append(f"{count:,} of {len(good):,} particles are left out: they are not finite")
-        particles = particles.select(good)
-        _note_coinciding(particles)
-        return particles
+        return particles.select(good)
     row = int(np.argmin(good))
     values = dict(zip("xyz", particles.positions[row].tolist()))
     if particles.radii is not None:
@@ -124,23 +118,6 @@ def _finite(particles: Particles, drop: bool) -> Particles:
     said = ", ".join(f"{key} = {value}" for key, value in values.items() if not np.isfinite(value))
     raise DataError(f"{particles.name}: particle {row + 1:,} of {len(good):,}: {said}: must be finite" + (
         "" if drop else f"; drop_nonfinite leaves {'it' if count == 1 else f'the {count:,} such'} out"))
-
-
-def _note_coinciding(particles: Particles) -> None:
-    """Compares projections of the positions. If there are many, compares a sample, chosen by hash."""
-    count, bits = len(particles), (len(particles) // MOST_SORTED).bit_length()
-    if count > MOST_COMPARED:
-        return
-    found = []
-    for rows in chunks(count):
-        x, y, z = coordinates(particles.positions[rows])
-        places = 0.6180339887498949 * x + 0.7548776662466927 * y + 0.8191725133961645 * z
-        found.append(places[places.view(np.uint64) * _ODD < np.uint64(2**(64 - bits) - 1)] if bits else places)
-    places = np.sort(np.concatenate(found))
-    coinciding = int((places[1:] == places[:-1]).sum()) << bits
-    if coinciding:
-        particles.notes.append(f"{'about ' if bits else ''}{coinciding:,} of {count:,} particles lie exactly where another one "
-                               "does")
 
 
 def _put_radii(particles: Particles, chosen: dict[str, str]) -> None:

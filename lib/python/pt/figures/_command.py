@@ -65,8 +65,6 @@ def parser() -> argparse.ArgumentParser:
     add("--turntable", type=at_least(2, int), metavar="N", help="N pictures of a full turn about the vertical axis; lamps move "
         "with the camera")
     add("--frames", type=typed(two("-", int), "two frames like 0-99"), metavar="A-B", help="a picture of each frame")
-    add("--trails", type=at_least(1, int), default=0, metavar="N", help="with --frames, draws each particle's path through the "
-        "N frames before; steps through walls of a periodic cell are left out")
     add("--progress", choices=("auto", "json", "none"), default="auto")
     add("-q", "--quiet", action="store_true", help="print errors only")
     groups: dict[str, Any] = {}
@@ -110,8 +108,6 @@ def check(given: argparse.Namespace) -> None:
         refuse("--turntable: not with --frames")
     if (len(given.data) > 1 or given.panels) and (series or given.write_scene):
         refuse("panels: not with --frames, --turntable or --write-scene")
-    if given.trails and not given.frames:
-        refuse("--trails: only with --frames")
     if given.frames and "-" in given.data:
         refuse("--frames: standard input cannot be read twice")
     for each in given.data:
@@ -152,8 +148,7 @@ class Shown:
 def staged(given: argparse.Namespace, options: Options) -> Any:
     if given.frames:
         first, last = given.frames
-        return zip(range(first, last + 1), frames(lambda: read_frames(given.data[0], first, last, **options.reading), options,
-                                                  given.trails))
+        return zip(range(first, last + 1), frames(lambda: read_frames(given.data[0], first, last, **options.reading), options))
     sources = sources_of(given.data, given.panels, options)
     if len(sources) > 1:
         return [(None, Panels(sources, options))]

@@ -21,7 +21,6 @@ from pt.figures._radii import opacities_of, radii_of
 from pt.figures._rods import Rods, cell_corners, vectors_of
 from pt.figures._select import chosen
 from pt.figures._styles import completed, groups_of, repeated
-from pt.figures._trails import trails_of
 from pt.figures._tubes import trace_of, tubes_of
 
 LEAST_LENGTH: Final = 1e-18
@@ -76,8 +75,8 @@ class Drawn:
         return np.concatenate([self.radii, *(np.full(len(each.atoms), each.radius) for each in self.rods)])
 
 
-def prepare(particles: Particles, options: Options, scale: float | None = None, past: Sequence[Particles] = ()) -> Drawn:
-    """Hidden particles count for radii, color ranges and categories. `past` has earlier frames, for trails."""
+def prepare(particles: Particles, options: Options, scale: float | None = None) -> Drawn:
+    """Hidden particles count for radii, color ranges and categories."""
     notes = list(particles.notes)
     if not len(particles.positions):
         raise ValueError(f"{particles.name} has no particles")
@@ -98,8 +97,6 @@ def prepare(particles: Particles, options: Options, scale: float | None = None, 
         vectors, vector_scale = vectors_of(particles, options.vectors, options.vector_scale, radii)
         rods.append(vectors)
         settled.update({"vector_scale": vector_scale} if vector_scale else {})
-    if past:
-        rods.append(trails_of(particles, past, radii))
     tubes = None
     if options.bond_rule is not None:
         models = models_of(particles, options)

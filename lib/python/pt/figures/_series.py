@@ -1,7 +1,6 @@
 from __future__ import annotations
 
 import math
-from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import PurePath
@@ -24,14 +23,12 @@ from pt.figures._radii import covalent_factor
 from pt.figures._styles import styled
 
 
-def frames(read: Callable[[], Iterator[Particles]], options: Options, trails: int = 0) -> Iterator[Staged]:
-    """Reads all frames twice, first to choose one view and scale. `trails` is the number of earlier frames in a trail."""
+def frames(read: Callable[[], Iterator[Particles]], options: Options) -> Iterator[Staged]:
+    """Reads all frames twice, first to choose one view and scale."""
     options, view, reaches, scale = _common(((each, {}) for each in read()), options)
     layout = Layout.of(view, reaches, options.style, options.floor)
-    past: deque[Particles] = deque(maxlen=trails)
     for particles in read():
-        yield Staged(prepare(particles, options, scale, past), layout, options)
-        past.appendleft(particles.wrapped() if options.wrap else particles)
+        yield Staged(prepare(particles, options, scale), layout, options)
 
 
 class Panels(Picture):

@@ -10,7 +10,6 @@ from pt.figures._errors import DataError
 from pt.figures._particles import Table
 from pt.figures.readers import _other
 from pt.figures.readers._crystals import read_cif
-from pt.figures.readers._dump_yaml import DumpYaml
 from pt.figures.readers._frames import Frames, one_frame
 from pt.figures.readers._gro import Gro
 from pt.figures.readers._gsd import read_gsd
@@ -39,7 +38,7 @@ def _molecules(format: str) -> Callable[[Lines], Frames]:
 
 
 FORMATS: Final[dict[str, Callable[[Lines], Frames]]] = {
-    "lammps": LammpsDump, "yaml": DumpYaml, "xyz": Xyz, "gro": Gro, "pdb": read_pdb,
+    "lammps": LammpsDump, "xyz": Xyz, "gro": Gro, "pdb": read_pdb,
     "pdbqt": lambda lines: read_pdb(lines, True), "cif": read_cif,
     **{format: _molecules(format) for format in MOLECULES}, "poscar": _one(read_poscar), "xsf": read_xsf,
     "npy": read_npy, "npz": read_npz, "ply": _one(read_ply), "pcd": _one(read_pcd)}
@@ -52,9 +51,9 @@ OTHERS: Final[dict[str, Callable[[str], Frames]]] = {
 
 _FIRST_BYTES: Final = ((b"\x93NUMPY", "npy"), (b"PK\3\4", "npz"), (b"PK\5\6", "npz"), (b"ply\n", "ply"), (b"ply\r", "ply"),
                        (b"ITEM: ", "lammps"), (b"# .PCD", "pcd"), (b"VERSION ", "pcd"), (b"# vtk", "pyvista"),
-                       (b"LASF", "laspy"), (b"---\ncreator: LAMMPS", "yaml"), (b"\xdf\x85\xa8\x43", "gsd"))
+                       (b"LASF", "laspy"), (b"\xdf\x85\xa8\x43", "gsd"))
 _ENDINGS: Final = {".dump": "lammps", ".lammpstrj": "lammps", ".xyz": "xyz", ".extxyz": "xyz", ".ply": "ply",
-                   ".pcd": "pcd", ".npy": "npy", ".npz": "npz", ".yaml": "yaml", ".yml": "yaml", ".gro": "gro", ".pdb": "pdb",
+                   ".pcd": "pcd", ".npy": "npy", ".npz": "npz", ".gro": "gro", ".pdb": "pdb",
                    ".ent": "pdb", ".pdbqt": "pdbqt", ".cif": "cif", ".mmcif": "cif", ".pdbx": "cif", ".sdf": "sdf",
                    ".sd": "sdf", ".mol": "sdf", ".mol2": "mol2", ".cml": "cml", ".poscar": "poscar", ".vasp": "poscar",
                    ".xsf": "xsf", ".axsf": "xsf", ".gsd": "gsd", ".xtc": "xtc", ".trr": "trr", ".dcd": "dcd", ".tng": "tng",

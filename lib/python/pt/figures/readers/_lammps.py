@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from typing import Any
 
 import numpy as np
@@ -19,8 +18,6 @@ HEAD_ENDS = "the file ends within the header of a frame: it was cut short"
 
 
 class LammpsDump(TextFrames):
-    marks: re.Pattern[bytes] | None = None
-
     def __init__(self, lines: Lines) -> None:
         super().__init__(lines)
         self._names: list[str] = []
@@ -63,7 +60,7 @@ class LammpsDump(TextFrames):
 
     def body(self, count: int) -> Table:
         rows = Rows(self.lines, Layout(self._names, coordinate_names(self._names)[0]))
-        rows.read(count, self.marks)
+        rows.read(count)
         return Table(rows.columns(), self._cell, rows.notes, is_text=True)
 
     def _line(self) -> str:
