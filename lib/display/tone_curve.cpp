@@ -1,7 +1,5 @@
 #include "lib/display/tone_curve.h"
 
-#include <pt/display.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -25,6 +23,10 @@ Color clamp(Color color) {
     return color;
 }
 
+Color none(Color color) {
+    return color;
+}
+
 // Reinhard et al. 2002, eq. 3. Applied to luminance, because compression of each channel would desaturate colors.
 Color reinhard(Color color) {
     const double divisor = 1.0 + luminance(color);
@@ -43,7 +45,7 @@ Color aces(Color color) {
 // Sobotka 2022, AgX (github.com/sobotka/AgX), base look, as in Wrensch 2023, "Minimal AgX Implementation": primaries
 // inset, logarithm of 16.5 stops about middle grey, polynomial sigmoid (mean squared error 3.7e-6), primaries outset.
 // Curves return light, so AgX's gamma of 2.2 is decoded.
-Color agx(const Color &color) {
+Color agx(Color color) {
     static constexpr Rows inset{{{0.842479062253094, 0.0784335999999992, 0.0792237451477643},
                                  {0.0423282422610123, 0.878468636469772, 0.0791661274605434},
                                  {0.0423756549057051, 0.0784336, 0.879142973793104}}};
@@ -90,6 +92,8 @@ Color neutral(Color color) {
     return color;
 }
 
+constexpr std::array curves{none, reinhard, aces, agx, neutral}; // PT_CURVE_* are its indices
+
 } // namespace
 
 double luminance(const Color &color) {
@@ -97,22 +101,11 @@ double luminance(const Color &color) {
 }
 
 bool is_curve(std::uint32_t curve) {
-    return curve <= PT_CURVE_NEUTRAL;
+    return curve < curves.size();
 }
 
 Color apply_curve(std::uint32_t curve, const Color &radiance) {
-    switch (curve) {
-    case PT_CURVE_REINHARD:
-        return clamp(reinhard(radiance));
-    case PT_CURVE_ACES:
-        return clamp(aces(radiance));
-    case PT_CURVE_AGX:
-        return agx(radiance);
-    case PT_CURVE_NEUTRAL:
-        return clamp(neutral(radiance));
-    default:
-        return clamp(radiance);
-    }
+    return clamp(curves[curve](radiance));
 }
 
 double encode_srgb(double light) {

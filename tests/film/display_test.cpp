@@ -1,4 +1,5 @@
 #include "lib/display/tone_curve.h"
+#include "lib/scene_file/enumerations.h"
 #include "tests/support/sized.h"
 
 #include <pt/display.h>
@@ -22,8 +23,7 @@ namespace {
 using pt::apply_curve;
 using pt::Color;
 
-constexpr std::uint32_t all_curves[] = {PT_CURVE_NONE, PT_CURVE_REINHARD, PT_CURVE_ACES, PT_CURVE_AGX,
-                                        PT_CURVE_NEUTRAL};
+constexpr std::span<const std::uint32_t> all_curves = pt::curves.values();
 
 constexpr double rounding = 1e-12;
 
@@ -50,6 +50,7 @@ double encode(double light) {
 TEST(ToneCurve, CurvesNeverFall) {
     EXPECT_TRUE(is_nondecreasing(&encode));
     for (const std::uint32_t curve : all_curves) {
+        ASSERT_TRUE(pt::is_curve(curve)) << curve;
         EXPECT_TRUE(is_nondecreasing([curve](double x) {
             return apply_curve(curve, {x, x, x})[1];
         })) << "curve "
@@ -265,8 +266,8 @@ TEST(Display, ARefusalNamesFieldValueAndRule) {
         return std::string(pt_last_error(nullptr));
     };
     using Info = pt_display_info &;
-    EXPECT_EQ(refusal([](Info display) { display.curve = 5; }),
-              "display.curve = 5: must be a PT_CURVE_* of pt/display.h");
+    EXPECT_EQ(refusal([](Info display) { display.curve = std::uint32_t{all_curves.size()}; }),
+              "display.curve = " + std::to_string(all_curves.size()) + ": must be a PT_CURVE_* of pt/display.h");
     EXPECT_EQ(refusal([](Info display) { display.bits = 10; }), "display.bits = 10: must be 8 or 16, or 0");
     EXPECT_EQ(refusal([](Info display) { display.exposure = 64.5; }), "display.exposure = 64.5: must be in [-64, 64]");
     EXPECT_EQ(refusal([](Info display) { display.exposure = nan; }), "display.exposure = nan: must be in [-64, 64]");
