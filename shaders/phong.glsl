@@ -6,7 +6,7 @@
 #include "scene.glsl"
 #include "vertex.glsl"
 
-const bool SAMPLE_LOBES = ESTIMATOR != ESTIMATOR_UNIFORM && ESTIMATOR != ESTIMATOR_COSINE;
+const bool SAMPLE_LOBES = PT_SAMPLES_LOBES;
 
 struct Material {
     vec3 diffuse;               // albedo / pi

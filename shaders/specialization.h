@@ -60,7 +60,13 @@ const uint CONSTANT_COUNT = 43;
 // Component i of scene word w is constant_id CONSTANT_COUNT + 4 w + i.
 const uint CONSTANT_SCENE_WORDS = 64;
 
+// An estimator that does not sample lamps finds them by chance.
+#define PT_SAMPLES_LAMPS (ESTIMATOR == ESTIMATOR_MIS || ESTIMATOR == ESTIMATOR_LIGHT)
+#define PT_SAMPLES_LOBES (ESTIMATOR != ESTIMATOR_UNIFORM && ESTIMATOR != ESTIMATOR_COSINE)
+
 #ifdef __cplusplus
+constexpr bool samples_lamps(uint ESTIMATOR) { return PT_SAMPLES_LAMPS; }
+constexpr bool samples_lobes(uint ESTIMATOR) { return PT_SAMPLES_LOBES; }
 } // namespace pt::gpu
 #endif
 #undef PT_SPECIALIZED

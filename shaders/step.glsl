@@ -10,7 +10,7 @@
 #include "vertex.glsl"
 
 // The first vertex samples every lamp if there are few. Otherwise a vertex chooses one lamp.
-const bool SAMPLE_LAMPS = (ESTIMATOR == ESTIMATOR_MIS || ESTIMATOR == ESTIMATOR_LIGHT) && LAMP_COUNT > 0u;
+const bool SAMPLE_LAMPS = PT_SAMPLES_LAMPS && LAMP_COUNT > 0u;
 const bool SAMPLE_EVERY_LAMP = SAMPLE_LAMPS && LAMP_COUNT <= EVERY_LAMP_LIMIT;
 
 struct Path {

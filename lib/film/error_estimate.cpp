@@ -1,5 +1,7 @@
 #include "lib/film/error_estimate.h"
 
+#include "shaders/specialization.h"
+
 #include <pt/stats.h>
 
 #include <algorithm>
@@ -118,8 +120,7 @@ double exaggeration(std::uint32_t sampler) {
 }
 
 bool finds_lamps_by_chance(std::uint32_t estimator, std::uint32_t max_path_length) {
-    return max_path_length > 1 &&
-           (estimator == PT_ESTIMATOR_UNIFORM || estimator == PT_ESTIMATOR_COSINE || estimator == PT_ESTIMATOR_BSDF);
+    return max_path_length > 1 && estimator != PT_ESTIMATOR_BEST && !gpu::samples_lamps(estimator);
 }
 
 void ErrorEstimator::add(const TileErrors &tiles) {

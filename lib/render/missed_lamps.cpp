@@ -1,6 +1,6 @@
 #include "lib/render/missed_lamps.h"
 
-#include <pt/stats.h>
+#include "shaders/specialization.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,11 +11,10 @@ namespace pt {
 
 namespace {
 
-// A fraction 1 / (n + 1) of uniform directions is within the half-width of a lobe of glossiness n. Only some estimators
-// find lobes by chance.
+// A fraction 1 / (n + 1) of uniform directions is within the half-width of a lobe of glossiness n.
 double smallest_lobe_share(const PreparedScene &scene, std::uint32_t estimator) {
     double share = 1.0;
-    if (estimator == PT_ESTIMATOR_UNIFORM || estimator == PT_ESTIMATOR_COSINE)
+    if (!gpu::samples_lobes(estimator))
         for (const Material &material : scene.used_materials)
             if (is_glossy(material))
                 share = std::min(share, 1.0 / (1.0 + material.glossiness));

@@ -23,9 +23,7 @@ std::uint64_t loop_trips_per_walk(const Features &features) {
 }
 
 bool samples_lamps(const Features &features) {
-    const bool does =
-        features[gpu::ID_ESTIMATOR] == PT_ESTIMATOR_MIS || features[gpu::ID_ESTIMATOR] == PT_ESTIMATOR_LIGHT;
-    return does && features[gpu::ID_MAX_PATH_LENGTH] > 1;
+    return gpu::samples_lamps(features[gpu::ID_ESTIMATOR]) && features[gpu::ID_MAX_PATH_LENGTH] > 1;
 }
 
 namespace {
