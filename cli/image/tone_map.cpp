@@ -8,6 +8,27 @@
 #include <cstddef>
 
 namespace cli {
+namespace {
+
+using Numbers = double[3];
+
+bool is_set(double number) {
+    return number != 0.0;
+}
+
+bool is_set(const Numbers &numbers) {
+    return numbers[0] != 0.0;
+}
+
+double in_file(double number) {
+    return number;
+}
+
+std::string in_file(const Numbers &numbers) {
+    return formatted("%.9g, %.9g, %.9g", numbers[0], numbers[1], numbers[2]);
+}
+
+} // namespace
 
 ToneMap tone_map_for(pt_display_info display, std::span<const float> radiance) {
     const bool is_automatic = display.automatic_exposure != 0;
@@ -40,30 +61,27 @@ std::vector<std::uint8_t> map_to_bytes(std::span<const float> radiance, const To
     return bytes;
 }
 
-bool has_white(const pt_display_info &display) {
-    return display.white[0] != 0.0;
-}
-
 nlohmann::ordered_json tone_map_json(const std::optional<ToneMap> &tone_map) {
     if (!tone_map)
         return nullptr;
     const pt_display_info &display = tone_map->display;
-    return {{"curve", pt::curves.name(display.curve)},
-            {"exposure", display.exposure},
-            {"automatic_exposure", tone_map->is_automatic},
-            {"gamma", display.gamma != 0.0 ? nlohmann::ordered_json(display.gamma) : nullptr},
-            {"white", has_white(display) ? nlohmann::ordered_json(display.white) : nullptr}};
+    nlohmann::ordered_json json{{"curve", pt::curves.name(display.curve)},
+                                {"automatic_exposure", tone_map->is_automatic}};
+    pt::show_numbers(display, [&](const std::string &name, const auto &value) {
+        json[name] = is_set(value) ? nlohmann::ordered_json(value) : nullptr;
+    });
+    json["exposure"] = display.exposure;
+    return json;
 }
 
 void add_tone_map(std::vector<ImageAttribute> &attributes, const ToneMap &tone_map) {
-    const pt_display_info &display = tone_map.display;
-    attributes.push_back({"pt.toneMap", std::string(pt::curves.name(display.curve))});
-    attributes.push_back({"pt.exposure", display.exposure});
-    attributes.push_back(display.gamma != 0.0 ? ImageAttribute{"pt.gamma", display.gamma}
-                                              : ImageAttribute{"pt.encoding", "sRGB"});
-    if (has_white(display))
-        attributes.push_back(
-            {"pt.white", formatted("%.9g, %.9g, %.9g", display.white[0], display.white[1], display.white[2])});
+    attributes.push_back({"pt.toneMap", std::string(pt::curves.name(tone_map.display.curve))});
+    pt::show_numbers(tone_map.display, [&](const std::string &name, const auto &value) {
+        if (is_set(value) || name == "exposure")
+            attributes.push_back({"pt." + name, in_file(value)});
+        else if (name == "gamma")
+            attributes.push_back({"pt.encoding", "sRGB"});
+    });
 }
 
 std::string automatic_exposure_line(const std::optional<ToneMap> &tone_map) {

@@ -142,6 +142,10 @@ def program_text(headers):
         words = {name: name.removeprefix(prefix).lower().replace("_", mark) for name in names}
         rows = [f'    {{"{words[name]}", {name}}},' for name in names]
         lines += [f"inline constexpr ValueNames {table}({{", *rows, "});", ""]
+    body = re.search(r"struct pt_display_info \{(.*?)\}", without_comments("".join(headers)), re.DOTALL)[1]
+    calls = [f'    show("{name}", display.{name});' for name, kind in members_of(body) if kind.startswith("double")]
+    lines += ["// Calls show() with the name and the value of each number and each array.", "template <typename Show>",
+              "void show_numbers(const pt_display_info &display, const Show &show) {", *calls, "}", ""]
     return "\n".join([*lines, "} // namespace pt"]) + "\n"
 
 

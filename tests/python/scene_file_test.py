@@ -1,3 +1,4 @@
+import dataclasses
 import json
 import os
 import pathlib
@@ -118,7 +119,13 @@ class Reading(unittest.TestCase):
     def test_how_a_picture_is_shown(self):
         loaded = pt.load("s.json", text='{"film": {"exposure": -1.5, "tonemap": "agx", "gamma": 2}, "render": {"spp": 9}}')
         self.assertEqual((loaded.samples, loaded.display), (9, pt.Display(-1.5, "agx", 2.0)))
-        for name in pt.scene_schema()["properties"]["film"]["properties"]["tonemap"]["enum"]:
+        keys = pt.scene_schema()["properties"]["film"]["properties"]
+        self.assertEqual({*keys} - {"width", "height"}, {each.name for each in dataclasses.fields(pt.Display)})
+        shown = {"exposure": "auto", "tonemap": "agx", "gamma": 2.5, "white": [1, 2, 0.5]}
+        display = pt.load("s.json", text=json.dumps({"film": shown})).display
+        self.assertEqual(display.fields(), {"curve": pt.Curve.AGX, "gamma": 2.5, "white": (1, 2, 0.5)})
+        self.assertEqual((json.loads(json.dumps(display._section())), pt.Display._of_section(display._section())), (shown, display))
+        for name in keys["tonemap"]["enum"]:
             self.assertEqual(pt.load("s.json", text=f'{{"film": {{"tonemap": "{name}"}}}}').display.tonemap, name)
         loaded = pt.load("s.json", text="{}")
         self.assertEqual((loaded.samples, loaded.display), (None, pt.Display()))

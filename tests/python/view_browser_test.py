@@ -281,10 +281,10 @@ class Browser(unittest.TestCase):
         self.browser.value("[...document.querySelectorAll('#sizes button')].at(-1).click()")
         self.browser.until("document.getElementById('picture').width === 16")
         self.shot("tiny")
-        for layer in ("normal", "depth", "albedo", "samples", "standard error"):
+        for layer in ("normal", "depth", "albedo", "sample count", "standard error"):
             self.browser.value(f"[...document.querySelectorAll('#layers button')].find(b => b.textContent === '{layer}').click()")
             self.browser.until(f"document.querySelector('#layers [aria-pressed=true]').textContent === '{layer}'")
-            self.assertGreater(len(np.unique(self.bytes_shown())), 1 if layer != "samples" else 0)
+            self.assertGreater(len(np.unique(self.bytes_shown())), 1 if layer != "sample count" else 0)
 
     def test_edits_an_error_and_its_mend(self):
         self.open(shader_dir=self.kernels)

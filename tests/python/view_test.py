@@ -140,16 +140,17 @@ class Views(unittest.TestCase):
             state = page.frame(lambda state: state["samples"] == 64)
             with pt.Context() as context:
                 image = context.render(SCENE, CAMERA, settings(), 64)
-                for name, quantity in (("mean", "RADIANCE"), ("standard error", "STANDARD_ERROR"), ("samples", "SAMPLE_COUNT"),
-                                       ("depth", "DEPTH"), ("normal", "NORMAL"), ("albedo", "ALBEDO")):
+                layers = ("radiance", "standard error", "sample count", "depth", "normal", "albedo")
+                self.assertEqual(state["choices"]["layer"], list(layers))
+                for name in layers:
                     page.send({"layer": name})
                     page.frame(lambda state: state["layer"] == name)
-                    values = context.readback(pt.Quantity[quantity])
+                    values = context.readback(pt.Quantity[name.upper().replace(" ", "_")])
                     self.assert_shows(page, name, values, image)
                     layer = page.ask({"pixel": [5, 7]})["pixel"]["layer"]
                     self.assertEqual([np.inf if each is None else each for each in layer], values[7, 5].tolist())
-            page.send({"layer": "mean"})
-            page.frame(lambda state: state["layer"] == "mean")
+            page.send({"layer": "radiance"})
+            page.frame(lambda state: state["layer"] == "radiance")
             self.assertEqual((state["error"], state["low"], state["high"]), (image.error, *image.error_bounds))
             np.testing.assert_array_equal(page.radiance(), image.radiance)
             pixel = page.ask({"pixel": [5, 7]})["pixel"]
@@ -162,7 +163,7 @@ class Views(unittest.TestCase):
         """Numbers from 0 to 1 become 0 to 255. Halves may be rounded up or down."""
         self.assertTrue((page.pixels[:, :, 3] == 255).all())
         shown = page.pixels[:, :, :3]
-        if layer == "mean":
+        if layer == "radiance":
             return np.testing.assert_array_equal(shown, image.to_srgb8())
         if layer in ("albedo", "standard error"):
             of_layer = pt.Image(values, values, values, None, None, 0.0 if layer == "albedo" else None)
@@ -170,7 +171,7 @@ class Views(unittest.TestCase):
         numbers = values.astype(np.float64)
         if layer == "normal":
             numbers = 0.5 + 0.5 * numbers
-        elif layer == "samples":
+        elif layer == "sample count":
             numbers = np.full(values.shape, 0.5)
         else:
             known = np.isfinite(numbers)
@@ -194,7 +195,7 @@ class Views(unittest.TestCase):
             self.assertFalse(np.array_equal(page.pixels, automatic))
             for spoilt in ({"exposure": 65, "tonemap": "none", "gamma": None}, {"exposure": 0, "tonemap": "x", "gamma": None},
                            {"exposure": 0, "tonemap": "none", "gamma": 11}, {"exposure": "bright", "tonemap": "none", "gamma": 1},
-                           {"exposure": 0}, 7):
+                           {"brightness": 1}, 7):
                 self.assertIn("refused", page.ask({"display": spoilt}), spoilt)
             page.send({"display": {"exposure": "auto", "tonemap": "none", "gamma": None}})
             page.frame(lambda state: state["stops"] != -1.5)

@@ -8,7 +8,7 @@ import pathlib
 import sys
 from collections.abc import Iterable, Mapping
 from ctypes import POINTER, c_char_p, c_int32, c_uint32, c_void_p
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import Any, Final
 
 import numpy as np
@@ -83,6 +83,19 @@ class Display:
     gamma: float | None = None
     white: Vector | None = None
 
+    def fields(self) -> dict[str, Any]:
+        """Returns arguments of Image.to_srgb8."""
+        given = {name: value for name, value in vars(self).items() if name != "tonemap" and value is not None}
+        return {"curve": Curve[str(self.tonemap).upper()], **given}
+
+    def _section(self) -> dict[str, Any]:
+        return {**vars(self), "exposure": "auto" if self.exposure is None else self.exposure}
+
+    @classmethod
+    def _of_section(cls, section: Mapping[str, Any]) -> Display:
+        values: dict[str, Any] = {**section, "exposure": None if section["exposure"] == "auto" else section["exposure"]}
+        return cls(**values)
+
 
 @dataclass(frozen=True)
 class SceneFile:
@@ -119,11 +132,8 @@ def load(path: Path, *, text: str | None = None, overrides: Mapping[str, Any] | 
              if isinstance(overrides, Mapping) else list(overrides))
     handle = _Handle(path, text, given, frame)
     scene, camera, render, film = handle.contents()
-    shown = film.display
-    display = Display(None if shown.automatic_exposure else shown.exposure, CURVES[shown.curve], shown.gamma or None,
-                      tuple(shown.white) if any(shown.white) else None)
-    return SceneFile(handle.scene_of(scene), _camera(camera), _settings(render), film.sample_count or None, display,
-                     handle.files(), handle)
+    return SceneFile(handle.scene_of(scene), _camera(camera), _settings(render), film.sample_count or None,
+                     _display(film.display), handle.files(), handle)
 
 
 def scene_schema() -> dict[str, Any]:
@@ -211,6 +221,16 @@ def _camera(read: structs.pt_camera) -> Camera:
                   vertical_fov=read.vertical_fov or None, shutter=(read.shutter_open, read.shutter_close),
                   vertical_extent=read.vertical_extent or None, aperture=read.aperture, focus=read.focus,
                   projection=Projection(read.projection))
+
+
+def _display(read: structs.pt_display_info) -> Display:
+    """A number that is 0 has its default."""
+    given: dict[str, Any] = {}
+    for each in fields(Display)[2:]:
+        value = getattr(read, each.name)
+        if value if isinstance(value, float) else any(value):
+            given[each.name] = value if isinstance(value, float) else tuple(value)
+    return Display(None if read.automatic_exposure else read.exposure, CURVES[read.curve], **given)
 
 
 def _settings(read: structs.pt_render) -> RenderSettings:

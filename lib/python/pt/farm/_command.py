@@ -78,10 +78,8 @@ def write_pictures(film: Film, arguments: argparse.Namespace, display: Display, 
         write_film(film, numbered(arguments.film, frame))
     if not arguments.output:
         return
-    options = ["--exposure", "auto" if display.exposure is None else repr(display.exposure),
-               "--tonemap", display.tonemap]
-    options += ["--gamma", repr(display.gamma)] if display.gamma else []
-    options += ["--white", ",".join(map(repr, display.white))] if display.white else []
+    options = [word for name, value in display._section().items() if value is not None
+               for word in (f"--{name}", ",".join(map(repr, value)) if isinstance(value, tuple) else str(value))]
     options += ["--alpha"] if arguments.alpha else []
     options += [word for name in arguments.output for word in ("-o", numbered(name, frame))]
     options += ["--layers", arguments.layers] if arguments.layers else []

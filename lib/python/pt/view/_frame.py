@@ -13,9 +13,6 @@ from pt._columns import Array
 from pt._enums import Curve, Estimator, Quantity, Sampler, Uncertain
 from pt._stats import ErrorEstimate
 
-LAYERS: Final = {"mean": Quantity.RADIANCE, "standard error": Quantity.STANDARD_ERROR, "samples": Quantity.SAMPLE_COUNT,
-                 "depth": Quantity.DEPTH, "normal": Quantity.NORMAL, "albedo": Quantity.ALBEDO}
-OF_SAMPLES: Final = 3  # number of layers of samples; later layers show first hits of camera rays
 METHODS: Final[dict[str, Any]] = {"sampler": Sampler, "estimator": Estimator}
 
 
@@ -58,6 +55,9 @@ def name_of(member: Any) -> str:
     return name
 
 
+LAYERS: Final = {name_of(each).replace("-", " "): each for each in Quantity
+                 if each not in (Quantity.OBJECT, Quantity.COVERAGE)}
+OF_SAMPLES: Final = 3  # number of layers of samples; later layers show first hits of camera rays
 CHOICES: Final = {"layer": list(LAYERS), "curve": [name_of(each) for each in Curve],
                   **{name: [name_of(each) for each in kinds] for name, kinds in METHODS.items()}}
 

@@ -7,7 +7,7 @@ import numpy.typing as npt
 
 from pt._columns import Array
 from pt._display import automatic_exposure, to_pixels
-from pt._enums import Curve
+from pt._scene_file import Display
 from pt.view._frame import Frame
 
 Pixels = npt.NDArray[np.uint8]
@@ -16,32 +16,30 @@ SIGNALS: Final[dict[str, Any]] = {"exposure": 0.0, "gamma": 1.0}  # numbers in [
 
 
 class Look:
-    """A page's display. Only the mean uses `display`; the colors of other layers are fixed.
+    """A page's display. Only the radiance uses `display`; the colors of other layers are fixed.
 
-    display   exposure (a number or "auto"), tonemap, gamma (None: the sRGB curve), white (may be missing)
-    stops     current exposure, which is not recomputed while the camera moves
+    `stops` is the current exposure, which is not recomputed while the camera moves.
     """
 
-    def __init__(self, display: dict[str, Any], stops: float = 0.0) -> None:
-        self.is_automatic = display["exposure"] == "auto"
-        self.stops = stops if self.is_automatic else display["exposure"]
-        self._fields = {"curve": Curve[str(display["tonemap"]).upper()], "gamma": display["gamma"] or 0.0,
-                        "white": display.get("white") or (0.0, 0.0, 0.0)}
+    def __init__(self, display: Display, stops: float = 0.0) -> None:
+        self.is_automatic = display.exposure is None
+        self.stops = stops if display.exposure is None else display.exposure
+        self._fields = display.fields()
         self.pixels([0.0, 0.0, 0.0])  # raises for values that the library refuses
 
     def pixels(self, radiance: npt.ArrayLike) -> Pixels:
-        return to_pixels(radiance, self.stops, **self._fields)
+        return to_pixels(radiance, **{**self._fields, "exposure": self.stops})
 
     def shown(self, frame: Frame) -> bytes:
         pixels, layer = frame.pixels, frame.state["layer"]
         assert pixels is not None
-        if layer == "mean":
+        if layer == "radiance":
             if self.is_automatic and not frame.state.get("moving"):
                 self.stops = automatic_exposure(pixels)
             shown = self.pixels(pixels)
             if frame.spoilt is not None:
                 shown[frame.spoilt] = SPOILT
-        elif layer in ("depth", "samples"):
+        elif layer in ("depth", "sample count"):
             shown = to_pixels(_greys(pixels[:, :, :1], layer == "depth"), **SIGNALS)
         elif layer == "normal":
             shown = to_pixels(0.5 + 0.5 * pixels, **SIGNALS)

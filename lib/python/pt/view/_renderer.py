@@ -45,7 +45,7 @@ class Renderer:
         self._faults: dict[str, str] = {}
         self._history: list[list[float]] = []
         self._guides: dict[str, Array] = {}
-        self._playing, self._moving, self._layer = True, False, "mean"
+        self._playing, self._moving, self._layer = True, False, "radiance"
         self._seconds = self._rate = self._next_publish = self._next_look = self._still = 0.0
         self._scale, self._count, self._shape, self._cost = 1, 0, (0, 0), math.inf
         self._revision = 0
@@ -294,7 +294,7 @@ class Renderer:
         self._emit({**kept, **facts, "name": self._source.path.name, "samples": self._count, "seconds": self._seconds, "playing": self._playing,
                     "moving": self._moving, "layer": self._layer, "history": list(self._history),
                     "size": [self._settings.width, self._settings.height], "camera": camera._section(),
-                    "first_camera": self._shown.camera._section(), "display": self._shown.display,
+                    "first_camera": self._shown.camera._section(), "display": self._shown.display._section(),
                     "max_path_length": self._settings.max_path_length, "sampler": name_of(self._settings.sampler),
                     "estimator": name_of(self._settings.estimator), "revision": self._revision,
                     "course": self._course.state if self._course else None, "is_course": self._course is not None,

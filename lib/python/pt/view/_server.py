@@ -19,6 +19,7 @@ from pt._camera import Camera
 from pt._errors import Error
 from pt._exr import encode_exr
 from pt._files import regular, write_atomically
+from pt._scene_file import Display
 from pt.view._address import Address, new_token
 from pt.view._frame import LAYERS, METHODS, Frame, name_of
 from pt.view._look import Look
@@ -149,7 +150,7 @@ class Server:
             await connection.prepare(request)
             assert self.show
             self.show.watch(True)
-            page = Page(connection, Look(self.show.frame.state["display"]))
+            page = Page(connection, Look(Display._of_section(self.show.frame.state["display"])))
             sender = self._loop.create_task(self._send(page))
             async for message in connection:
                 if message.type == WSMsgType.TEXT:
@@ -199,8 +200,8 @@ class Server:
             if "next" in message:
                 page.wanted.set()
             elif "display" in message:
-                white = self.show.frame.state["display"].get("white")
-                page.look = Look({**message["display"], "white": white}, page.look.stops)
+                shown = {**self.show.frame.state["display"], **message["display"]}
+                page.look = Look(Display._of_section(shown), page.look.stops)
                 self._announce()
             elif "pixel" in message:
                 x, y = (_whole(each, 0, MOST_PIXELS) for each in message["pixel"])

@@ -7,14 +7,14 @@ import re
 import tempfile
 import zipfile
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Protocol
 
 from pt._camera import Camera, RenderSettings
 from pt._errors import Error
 from pt._files import regular
 from pt._film import Film
 from pt._scene import Scene
-from pt._scene_file import SceneFile
+from pt._scene_file import Display, SceneFile
 from pt._scene_file import load as load_scene
 from pt.figures._accept import load
 from pt.figures._figure import Staged
@@ -25,12 +25,12 @@ from pt.view._code import STRING_OR_COMMENT
 
 @dataclass
 class Shown:
-    """`display` has exposure (a number or "auto"), tonemap and gamma (None: the sRGB curve). `files` have been read."""
+    """`files` have been read."""
 
     scene: Scene
     camera: Camera
     settings: RenderSettings
-    display: dict[str, Any]
+    display: Display
     files: list[pathlib.Path]
 
 
@@ -54,9 +54,7 @@ class SceneSource:
 
     def read(self) -> Shown:
         self._file = file = load_scene(self.path)
-        display = {"exposure": "auto" if file.display.exposure is None else file.display.exposure,
-                   "tonemap": file.display.tonemap, "gamma": file.display.gamma, "white": file.display.white}
-        return Shown(file.scene, file.camera, file.settings, display, [self.path, *file.files])
+        return Shown(file.scene, file.camera, file.settings, file.display, [self.path, *file.files])
 
     def explained(self, error: Exception) -> str:
         if self._file and isinstance(error, Error):
@@ -84,9 +82,7 @@ class FigureSource:
         options = self.options
         self.staged = Staged.of(load(str(self.path), frame=options.frame, model_number=options.model_number, **options.reading), options)
         settings = RenderSettings(*self.staged.layout.size, max_path_length=options.max_path_length, seed=options.seed)
-        exposure = "auto" if options.exposure is None else options.exposure
-        return Shown(self.staged.scene, self.staged.layout.camera, settings,
-                     {"exposure": exposure, "tonemap": "none", "gamma": None}, [self.path])
+        return Shown(self.staged.scene, self.staged.layout.camera, settings, Display(options.exposure), [self.path])
 
     def explained(self, error: Exception) -> str:
         return str(error)

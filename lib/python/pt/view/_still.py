@@ -4,6 +4,7 @@ from collections.abc import Callable
 from typing import Any
 
 from pt._film import Film
+from pt._scene_file import Display
 from pt.view._frame import LAYERS, OF_SAMPLES, Frame, facts_of, name_of
 from pt.view._rejected import rejected_samples
 
@@ -18,12 +19,12 @@ class Still:
             **facts_of(film.error_estimate()), "name": name, "samples": stats.mean_sample_count, "size": [info.columns, info.rows],
             "width": info.columns, "height": info.rows, "rejected": stats.rejected_samples,
             "spoilt": 0 if self._spoilt is None else int(self._spoilt.sum()), "device": info.device,
-            "display": {"exposure": "auto", "tonemap": "none", "gamma": None}, "max_path_length": info.max_path_length,
+            "display": Display()._section(), "max_path_length": info.max_path_length,
             "sampler": name_of(info.sampler), "estimator": name_of(info.estimator), "history": [], "faults": []}
         self.frame = Frame(0, {}, None)
         self.change()
 
-    def change(self, layer: str = "mean", **_: Any) -> None:
+    def change(self, layer: str = "radiance", **_: Any) -> None:
         index = list(LAYERS).index(layer)
         if index < OF_SAMPLES:
             self.frame = Frame(self.frame.number + 1, {**self._state, "layer": layer}, self._values[index], self._values,

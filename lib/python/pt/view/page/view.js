@@ -167,7 +167,7 @@ function tellPixel(pixel) {
     return;
   const shown = number => number?.toPrecision(5) ?? "infinite";
   const [r, g, b] = pixel.shown;
-  const layer = ["mean", "standard error", "samples"].includes(state.layer) ? ""
+  const layer = ["radiance", "standard error", "sample count"].includes(state.layer) ? ""
     : `${state.layer} ${pixel.layer.slice(0, state.layer === "depth" ? 1 : 3).map(shown).join(" ")}`;
   const parts = [`(${pixel.x}, ${pixel.y})`, `radiance ${pixel.radiance.map(shown).join(" ")}`,
                  `standard error ${pixel.error ? pixel.error.map(number => number.toPrecision(2)).join(" ") : "unknown"}`,
