@@ -36,11 +36,9 @@ struct LibraryError {
     std::vector<BrokenRule> rules; // empty if the message concerns no field
     std::uint64_t left_out = 0;    // broken rules beyond `rules`
 
-    // Returns a line for each rule or, without rules, the message.
     std::string in_words(const std::function<std::string(const BrokenRule &)> &words) const;
 };
 
-// Empty if the rule has no subject.
 std::optional<BrokenRule> broken_rule(const pt_broken_rule &rule);
 
 std::string in_words_of_options(const BrokenRule &rule);

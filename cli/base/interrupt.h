@@ -17,7 +17,6 @@ public:
     ~EndAtOnce();
 };
 
-// Returns 0 if no signal came.
 int interrupt_signal();
 
 std::string interrupt_name();

@@ -57,7 +57,6 @@ CLI::Option *add_name(CLI::App &command, const std::string &name, Target &target
         help);
 }
 
-// The help shows `value` as a placeholder.
 CLI::Option *add_text(CLI::App &command, const std::string &name, std::string &target, const std::string &value,
                       const std::string &help);
 

@@ -6,24 +6,14 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 
 namespace cli {
 
 struct KernelUse {
     bool has_tree = false;
-    std::uint64_t sample_count = 0; // of all pixels
+    std::uint64_t sample_count = 0;
 };
-
-struct KeptWidth {
-    unsigned int bits;
-    std::string driver;
-};
-
-// Returns nothing if the file is damaged or from another processor.
-std::optional<KeptWidth> read_width(const std::filesystem::path &file);
-void write_width(const std::filesystem::path &file, const KeptWidth &width);
 
 bool has_avx512();
 
@@ -36,7 +26,7 @@ public:
     // instance and other threads.
     explicit VectorWidth(const KernelUse &use, bool is_free = has_avx512());
 
-    // Whether the device is llvmpipe without a result, and the samples take longer than a measurement.
+    // Whether llvmpipe has no result, and the samples take longer than a trial.
     bool should_measure(const pt_device_info &device) const;
 
     // There must be no Vulkan instance, because llvmpipe reads the width when it is loaded.
@@ -47,7 +37,7 @@ private:
 
     KernelUse use_;
     bool is_free_;
-    std::filesystem::path cache_; // the user's cache folder
+    std::filesystem::path cache_;
     std::filesystem::path file_;
     std::string driver_; // driver of the result in use
 };

@@ -3,7 +3,7 @@
 #include "cli/base/json.h"
 #include "cli/base/vector_width.h"
 #include "cli/commands.h"
-#include "lib/scene_file/names.h"
+#include "cli/scene/scene.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,6 @@
 #include <cstdlib>
 #include <iomanip>
 #include <iostream>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -55,16 +54,22 @@ void print_json(const std::vector<pt_device_info> &devices) {
     std::cout << json_text(list);
 }
 
-constexpr pt::ValueNames<2, bool> kernel_kinds({{"list", false}, {"tree", true}});
-
 struct DevicesOptions {
     bool as_json = false;
-    std::optional<bool> has_tree;
+    std::string kernels;
     std::string device;
 };
 
+bool have_tree(const std::string &kernels) {
+    if (kernels == "list" || kernels == "tree")
+        return kernels == "tree";
+    SceneFile scene = read_scene_file(kernels);
+    load_columns(scene);
+    return gets_tree(scene);
+}
+
 int print_vector_width(const DevicesOptions &options) {
-    const Context context(create_info(options.device, ""), {*options.has_tree, UINT64_MAX});
+    const Context context(create_info(options.device, ""), {have_tree(options.kernels), UINT64_MAX});
     for (const char *name : vector_width_variables)
         if (const char *value = std::getenv(name))
             std::cout << name << '=' << value << '\n';
@@ -72,7 +77,7 @@ int print_vector_width(const DevicesOptions &options) {
 }
 
 int run_devices(const DevicesOptions &options) {
-    if (options.has_tree)
+    if (!options.kernels.empty())
         return print_vector_width(options);
     const VectorWidth width({}); // the name of llvmpipe contains the width
     const std::vector<pt_device_info> devices =
@@ -91,11 +96,9 @@ void add_devices_command(CLI::App &program, Run &chosen) {
     const auto [command, options] =
         add_command(program, chosen, "devices", "List the Vulkan devices", "", &run_devices);
     command.add_flag("--json", options.as_json, "Print JSON");
-    add_name(
-        command, "--vector-width", options.has_tree, [](const std::string &name) { return kernel_kinds.find(name); },
-        "kind of kernel", kernel_kinds.names(),
-        "Print the environment variables for llvmpipe's best vector width, which is measured the first time. Kernels "
-        "have a tree from 113 spheres on");
+    add_text(command, "--vector-width", options.kernels, "SCENE|list|tree",
+             "Print the environment variables for llvmpipe's best vector width, which is measured the first time, for "
+             "a scene's kernel, or kernels without or with a tree");
     add_device(command, options.device);
 }
 

@@ -4,7 +4,6 @@
 #include "cli/picture/denoise.h"
 #include "cli/render/render_checks.h"
 #include "lib/scene_file/animation.h"
-#include "lib/tree/tree_choice.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -86,12 +85,8 @@ int render_frames(const RenderOptions &options, ValidationLog &log) {
 } // namespace
 
 KernelUse kernel_use(const RenderTask &task) {
-    const pt_scene scene = task.scene.scene();
-    std::uint64_t spheres = scene.sphere_count;
-    for (const pt_sphere_array &each : task.scene.sphere_arrays())
-        spheres += each.count;
     const std::uint64_t pixels = std::uint64_t{task.render.width} * task.render.height;
-    return {spheres >= pt::default_tree_from, pixels * task.sample_count};
+    return {gets_tree(task.scene), pixels * task.sample_count};
 }
 
 pt_create_info render_create_info(const RenderOptions &options, ValidationLog &log) {

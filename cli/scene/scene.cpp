@@ -1,6 +1,7 @@
 #include "cli/scene/scene.h"
 
 #include "cli/base/file.h"
+#include "lib/tree/tree_choice.h"
 
 #include <algorithm>
 
@@ -38,6 +39,11 @@ SceneFile read_scene_file(const std::string &path, std::vector<SceneOverride> ov
 
 void load_columns(SceneFile &scene) {
     with_exit_code([&] { pt::read_columns(scene); });
+}
+
+bool gets_tree(const SceneFile &scene) {
+    const pt::SphereCounts counts = pt::count_spheres(scene.scene().sphere_count, scene.sphere_arrays());
+    return counts.spheres >= pt::tree_from(counts);
 }
 
 pt_display_info display_of(const std::vector<SceneOverride> &overrides) {

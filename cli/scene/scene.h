@@ -20,6 +20,9 @@ SceneFile read_scene_file(const std::string &path, std::vector<SceneOverride> ov
 
 void load_columns(SceneFile &scene);
 
+// If no sphere is hidden.
+bool gets_tree(const SceneFile &scene);
+
 pt_display_info display_of(const std::vector<SceneOverride> &overrides);
 
 // Names the option that sets the field, unless the scene sets the field.

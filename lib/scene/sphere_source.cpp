@@ -1,6 +1,5 @@
 #include "lib/scene/sphere_source.h"
 
-#include "lib/scene/column.h"
 #include "lib/scene/sphere_columns.h"
 
 #include <algorithm>
@@ -27,17 +26,6 @@ pt_sphere_array columns_of(std::span<const pt_sphere> spheres) {
     return columns;
 }
 
-bool is_any_translucent(const pt_sphere_array &array) {
-    const std::uint32_t rows = array.opacity.stride_bytes == 0 ? std::min(array.count, 1U) : array.count;
-    bool any = false;
-    if (is_there(array.opacity))
-        with_real<1>(array.opacity, [&](auto opacity) {
-            for (std::uint32_t i = 0; i < rows && !any; ++i)
-                any = opacity(i) < least_opaque;
-        });
-    return any;
-}
-
 // at(i) is the row of sphere i. Fields without a column do not change.
 template <typename At>
 void read_columns(const pt_sphere_array &columns, At at, std::span<Sphere> spheres) {
@@ -54,7 +42,8 @@ void read_columns(const pt_sphere_array &columns, At at, std::span<Sphere> spher
 
 } // namespace
 
-SphereSource::SphereSource(std::span<const pt_sphere> spheres, std::span<const pt_sphere_array> arrays) {
+SphereSource::SphereSource(std::span<const pt_sphere> spheres, std::span<const pt_sphere_array> arrays) :
+    counts_(count_spheres(spheres.size(), arrays)) {
     parts_.reserve(arrays.size() + 1);
     parts_.push_back(columns_of(spheres));
     parts_.insert(parts_.end(), arrays.begin(), arrays.end());
@@ -62,15 +51,12 @@ SphereSource::SphereSource(std::span<const pt_sphere> spheres, std::span<const p
     starts_.push_back(0);
     for (const pt_sphere_array &part : parts_)
         starts_.push_back(starts_.back() + part.count);
-    has_opacities_ = std::ranges::any_of(arrays, is_any_translucent);
     static constexpr float whole = 1.0F;
     for (pt_sphere_array &part : parts_)
-        if (!has_opacities_)
+        if (!counts_.has_opacities)
             part.opacity = {};
         else if (!is_there(part.opacity))
             part.opacity = {&whole, 0, PT_TYPE_FLOAT32};
-    for (const pt_sphere_array &array : arrays)
-        capsule_count_ += is_there(array.end) ? array.count : 0;
 }
 
 bool SphereSource::has(pt_column pt_sphere_array::*column) const {

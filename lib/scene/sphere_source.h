@@ -2,6 +2,7 @@
 #pragma once
 
 #include "lib/base/work_progress.h"
+#include "lib/scene/column.h"
 #include "lib/scene/scene.h"
 
 #include <pt/pt.h>
@@ -18,6 +19,27 @@
 
 namespace pt {
 
+struct SphereCounts {
+    std::uint64_t spheres;
+    std::uint64_t capsules = 0;
+    bool has_opacities = false;
+};
+
+inline SphereCounts count_spheres(std::uint64_t struct_count, std::span<const pt_sphere_array> arrays) {
+    SphereCounts counts{struct_count};
+    for (const pt_sphere_array &array : arrays) {
+        counts.spheres += array.count;
+        counts.capsules += is_there(array.end) ? array.count : 0;
+        const std::uint32_t rows = array.opacity.stride_bytes == 0 ? std::min(array.count, 1U) : array.count;
+        if (is_there(array.opacity))
+            with_real<1>(array.opacity, [&](auto opacity) {
+                for (std::uint32_t i = 0; i < rows && !counts.has_opacities; ++i)
+                    counts.has_opacities = opacity(i) < least_opaque;
+            });
+    }
+    return counts;
+}
+
 // Valid only during pt_set_scene.
 class SphereSource {
 public:
@@ -29,9 +51,7 @@ public:
     // Whether any array that is not empty has the column.
     bool has(pt_column pt_sphere_array::*column) const;
 
-    bool has_opacities() const { return has_opacities_; }
-
-    std::uint64_t capsule_count() const { return capsule_count_; }
+    const SphereCounts &counts() const { return counts_; }
 
     // for_each() is faster for many spheres.
     Sphere operator[](std::uint32_t index) const;
@@ -81,8 +101,7 @@ private:
 
     std::vector<pt_sphere_array> parts_;
     std::vector<std::uint32_t> starts_;
-    bool has_opacities_;
-    std::uint64_t capsule_count_ = 0;
+    SphereCounts counts_;
 };
 
 } // namespace pt

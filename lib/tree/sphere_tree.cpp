@@ -109,7 +109,7 @@ SphereTree::SphereTree(const SphereSource &spheres, const TreeChoice &choice) :
     grid_(choice.extent.grid()),
     moves_(choice.extent.moves),
     kinds_(choice.extent.kinds),
-    has_opacities_(spheres.has_opacities()),
+    has_opacities_(spheres.counts().has_opacities),
     scene_sphere_count_(static_cast<std::uint32_t>(spheres.size())),
     left_out_(choice.left_out) {
     std::ranges::copy_if(look_columns, std::back_inserter(looks_),

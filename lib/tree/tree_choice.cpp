@@ -59,10 +59,6 @@ private:
 
 } // namespace
 
-std::uint32_t tree_pays_from(const SphereSource &spheres) {
-    return spheres.capsule_count() == 0 ? default_tree_from : tree_of_others_from;
-}
-
 // Camera rays do not check the materials of tree spheres, so hidden spheres stay outside. Translucent
 // spheres stay in the tree, because only its walks handle opacities. Outlying spheres are known last, so the extents of
 // their blocks are found again.
@@ -72,7 +68,7 @@ TreeChoice tree_choice(const SphereSource &spheres, std::span<const Material> ma
     progress.enter(share_of_choice, static_cast<double>(spheres.size()));
     TreeChoice choice{.used_materials = std::vector<bool>(materials.size())};
     Outlying outlying(spheres);
-    const bool few_capsules = spheres.capsule_count() <= few_others;
+    const bool few_capsules = spheres.counts().capsules <= few_others;
     std::vector<SphereExtent> extents(spheres.size() / block_size + 1);
     spheres.for_each(progress, [&](std::uint32_t i, const Sphere &sphere) {
         const Material &material = materials[sphere.material];

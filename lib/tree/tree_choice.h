@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,7 +20,11 @@ inline constexpr std::uint32_t default_tree_from = 113;
 // tests.
 inline constexpr std::uint32_t tree_of_others_from = 24;
 
-std::uint32_t tree_pays_from(const SphereSource &spheres);
+// Returns the least number of visible spheres that gets a tree.
+constexpr std::uint32_t tree_from(const SphereCounts &counts, std::optional<std::uint32_t> wanted = {}) {
+    const std::uint32_t pays = counts.capsules == 0 ? default_tree_from : tree_of_others_from;
+    return counts.has_opacities ? 1 : wanted.value_or(pays);
+}
 
 struct TreeChoice {
     // Hidden spheres, distant ones and, if there are few, capsules. Indices are ascending.

@@ -70,10 +70,9 @@ PreparedScene::PreparedScene(CheckedScene checked, std::optional<std::uint32_t> 
                              WorkProgress &progress) :
     PreparedScene(prepared(std::move(checked), tree_from, before ? before->tree.get() : nullptr, progress)) {}
 
-PreparedScene PreparedScene::prepared(CheckedScene checked, std::optional<std::uint32_t> tree_from,
+PreparedScene PreparedScene::prepared(CheckedScene checked, std::optional<std::uint32_t> wanted,
                                       const SphereTree *before, WorkProgress &progress) {
-    const std::uint32_t from =
-        checked.spheres.has_opacities() ? 1 : tree_from.value_or(tree_pays_from(checked.spheres));
+    const std::uint32_t from = tree_from(checked.spheres.counts(), wanted);
     if (checked.spheres.size() >= from) {
         const TreeChoice choice = tree_choice(checked.spheres, checked.materials, progress);
         if (checked.spheres.size() - choice.hidden_count >= from && choice.left_out.size() < checked.spheres.size())

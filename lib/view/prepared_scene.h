@@ -35,8 +35,8 @@ struct PreparedScene {
     const std::string &digest() const;
 
 private:
-    static PreparedScene prepared(CheckedScene checked, std::optional<std::uint32_t> tree_from,
-                                  const SphereTree *before, WorkProgress &progress);
+    static PreparedScene prepared(CheckedScene checked, std::optional<std::uint32_t> wanted, const SphereTree *before,
+                                  WorkProgress &progress);
 
     static PreparedScene with_tree(const CheckedScene &checked, const TreeChoice &choice, const SphereTree *before,
                                    WorkProgress &progress);

@@ -44,6 +44,20 @@ class RealDeviceWidth(CommandLineTest):
         self.assertTrue(os.listdir(self.path("cache/pt/shaders-512")))
         self.assertFalse(list(pathlib.Path(self.path("cache/pt")).glob("vector-width-*")))
 
+    def test_the_width_is_for_the_kernel_that_the_library_builds(self):
+        sphere = {"center": [0, 0, 0], "radius": 1, "material": "m"}
+        capsule = sphere | {"end": [1, 0, 0]}
+        for name, surfaces in {"112": {"spheres": [sphere] * 112}, "113": {"spheres": [sphere] * 113},
+                               "23": {"capsules": [capsule] * 23}, "24": {"capsules": [capsule] * 24},
+                               "1": {"spheres": [sphere | {"opacity": 0.5}]}}.items():
+            surfaces |= {"camera": {"position": [0, 0, 5], "look_at": [0, 0, 0]}, "materials": {"m": {"diffuse": 0.5}}}
+            self.write("scene.json", json.dumps(surfaces))
+            self.expect(0, "render", "scene.json", "-o", "a.png", "--size", "16x8", "--spp", "1", "--stats", "a.json",
+                        "--device", self.device, XDG_CACHE_HOME=self.path("cache"))
+            stats = json.loads(self.contents("a.json"))
+            bits = 256 if "tree" in stats["features"] else 512
+            self.assertIn(f"{bits} bits", stats["device"]["name"], name)
+
     def test_a_checkpoint_goes_on_wherever_caches_can_be_and_at_each_width(self):
         self.write("file", "")
         picture = ("render", COURSEWORK, "--size", "16x8", "--device", self.device, "--checkpoint", "c.ptfilm", "--spp")
@@ -79,7 +93,8 @@ class RealDeviceWidth(CommandLineTest):
             other = {"256": "512", "512": "256"}[width]
             kept.write_text(text.replace(width, other, 1))
             self.assertIn(f"{other} bits", self.render("a.exr", scene))
-            self.assertEqual(self.variables(kernels)["LP_NATIVE_VECTOR_WIDTH"], other)
+            for same in kernels, scene:
+                self.assertEqual(self.variables(same)["LP_NATIVE_VECTOR_WIDTH"], other)
             kept.write_text("\n".join([other, *text.splitlines()[1:2], "another driver\n"]))
             self.variables(kernels)
             self.assertEqual(kept.read_text().splitlines()[1:], text.splitlines()[1:])

@@ -1,4 +1,5 @@
 #include "cli/base/exit_code.h"
+#include "cli/base/kept_width.h"
 #include "cli/base/vector_width.h"
 #include "tests/cli/temporary_folder.h"
 

@@ -130,7 +130,7 @@ TEST(SphereSource, KnowsOpacitiesThatLetRaysPass) {
         pt_sphere_array array = array_of(3, {center.data(), 12, PT_TYPE_FLOAT32}, {&radius, 0, PT_TYPE_FLOAT32});
         array.opacity = {opacities.data(), opacities.size() == 1 ? 0U : 4U, PT_TYPE_FLOAT32};
         const pt::SphereSource source({}, {&array, 1});
-        return std::pair(source.has_opacities(), source[1].opacity);
+        return std::pair(source.counts().has_opacities, source[1].opacity);
     };
     EXPECT_EQ(read({1.0F, 1.0F, 1.0F}), std::pair(false, pt::no_opacity));
     EXPECT_EQ(read({0.9999F}), std::pair(false, pt::no_opacity));

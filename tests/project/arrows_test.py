@@ -7,7 +7,7 @@ import pathlib
 import re
 import sys
 
-ORDERS = {"cli": ("base", "devices", "image", "film", "scene", "picture", "render", "merge", "denoise", "tonemap", "compare",
+ORDERS = {"cli": ("base", "image", "film", "scene", "devices", "picture", "render", "merge", "denoise", "tonemap", "compare",
                   "selftest", "course"),
           "lib": ("platform", "base", "scene", "tree", "points", "view", "film", "denoise", "display", "vulkan",
                   "glsl_module", "code", "kernel", "render", "api", "scene_file")}

@@ -61,9 +61,9 @@ def program() -> str:
     return os.environ.get("PT_PROGRAM") or (str(packaged) if packaged.exists() else "pt")
 
 
-def choose_vector_width(has_tree: bool, device: str | None) -> None:
+def choose_vector_width(kernels: str, device: str | None) -> None:
     """Sets the variables of `pt devices --vector-width`. Must precede the process's first context."""
-    command = [program(), "devices", "--vector-width", "tree" if has_tree else "list"]
+    command = [program(), "devices", "--vector-width", kernels]
     if VECTOR_BITS not in os.environ:
         with contextlib.suppress(OSError):  # without the program the driver's default stays
             done = subprocess.run(command + (["--device", device] if device else []), capture_output=True, text=True)

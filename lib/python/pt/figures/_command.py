@@ -206,7 +206,7 @@ def main() -> None:
                              and name != "progress"}, progress=Shown("none" if given.quiet else given.progress))
         check(given)
         if given.output:
-            choose_vector_width(True, options.device)
+            choose_vector_width("tree", options.device)
     except ValueError as error:
         refuse(str(error))
     try:

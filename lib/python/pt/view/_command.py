@@ -15,7 +15,6 @@ from typing import IO, NoReturn
 
 from pt._command_line import CODE_OF_RESULT, FILES, INTERNAL, SCENE, USAGE, at_least, choose_vector_width
 from pt._errors import Error
-from pt._scene_file import load
 from pt._text import tell
 from pt.figures._command import add_option, joined, typed
 from pt.figures._options import Options, two
@@ -25,7 +24,6 @@ EPILOG = """\
 The server listens only on 127.0.0.1. Everybody who has its address can control it. From another machine use
 ssh -L PORT:127.0.0.1:PORT HOST with the port of the address. Ctrl-C ends the server. Only the page's save buttons write files.
 """
-FIRST_TREE = 113  # spheres
 
 
 def refuse(message: str, code: int = USAGE) -> NoReturn:
@@ -94,23 +92,14 @@ def open_browser(address: str) -> IO[str]:
     return file
 
 
-def has_tree(what: str) -> bool:
-    if not what.endswith(".json"):
-        return not os.path.isdir(what)
-    try:
-        scene = load(what).scene
-    except (Error, OSError):  # the view says why
-        return False
-    return len(scene.spheres) + sum(len(each.center) for each in scene.sphere_arrays) >= FIRST_TREE
-
-
 def main() -> None:
     given = parser().parse_args(joined(sys.argv[1:]))
     if not os.access(given.what, os.R_OK):
         refuse(f"{given.what}: does not exist or cannot be read", FILES)
     if given.shader_dir and not os.path.isdir(given.shader_dir):
         refuse(f"--shader-dir {given.shader_dir}: is no folder", FILES)
-    choose_vector_width(has_tree(given.what), given.device)
+    is_scene = given.what.endswith(".json")
+    choose_vector_width(given.what if is_scene else "list" if os.path.isdir(given.what) else "tree", given.device)
     try:
         from pt.view._view import View
     except ImportError as error:
