@@ -14,14 +14,13 @@ struct Camera {
     glm::dvec3 right; // right, up and forward are orthonormal; right x up = -forward
     glm::dvec3 up;
     glm::dvec3 forward;
-    double tan_half_fov; // tangent of half the vertical angle; 0 for parallel rays
+    double view_size;    // perspective: tangent of half the vertical angle; orthographic: the view's height
     double shutter_open; // 0 <= shutter_open <= shutter_close <= 1
     double shutter_close;
-    double vertical_extent = 0.0; // height of an orthographic view; 0 for perspective
-    double start_distance = 0.0;  // distance of ray starts from pt_camera.position (lib/view/projection.h)
-    double start_radius = 0.0;    // radius of the disc where rays start; 0 for a point
-    double lens_radius = 0.0;     // 0 for a pinhole or parallel rays
-    double focus = 0.0;           // depth of the plane in focus; 0 without a lens
+    double start_distance = 0.0; // distance of ray starts from pt_camera.position (lib/view/projection.h)
+    double start_radius = 0.0;   // radius of the disc where rays start; 0 for a point
+    double lens_radius = 0.0;    // 0 without a lens
+    double focus = 0.0;          // depth of the plane in focus
     std::uint32_t projection = PT_PROJECTION_PERSPECTIVE;
 
     bool is_orthographic() const { return projection == PT_PROJECTION_ORTHOGRAPHIC; }

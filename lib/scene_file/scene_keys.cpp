@@ -1,5 +1,6 @@
 #include "lib/scene_file/scene_keys.h"
 
+#include "lib/scene/view_sizes.h"
 #include "lib/scene_file/enumerations.h"
 
 #include <algorithm>
@@ -47,6 +48,8 @@ constexpr ValueRule one_of(std::string_view kind, std::span<const std::string_vi
     return {.form = Form::name, .kind = kind, .names = names};
 }
 
+constexpr ViewSize widest_angle = widest_view(&pt_camera::vertical_fov);
+
 constexpr double largest_uint32 = std::numeric_limits<std::uint32_t>::max();
 constexpr double largest_uint64 = 0x1p64;
 
@@ -71,9 +74,12 @@ constexpr std::array camera_keys{
              [](Item item, Value value) {
                  item.scene.camera.projection = projections.find(value.get_ref<const std::string &>()).value();
              }},
-    // The rule of libpt, [1e-8, pi), in degrees. libpt would take 0 as the default.
+    // From 1e-8 radians. libpt would take 0 as the default.
     SceneKey{"vertical_fov",
-             {.least = 6e-7, .largest = 180.0, .excludes_largest = true, .unit = "degrees"},
+             {.least = 6e-7,
+              .largest = widest_angle.largest * (180.0 / std::numbers::pi),
+              .excludes_largest = widest_angle.excludes_largest,
+              .unit = "degrees"},
              "Vertical angle of view (perspective)",
              "45",
              optional,

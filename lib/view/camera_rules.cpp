@@ -48,9 +48,10 @@ void check_fields(const pt_camera &camera, const ViewSize &own, const Projection
     subject.check_each("target", camera.target, length_rule);
     subject.check_each("up", camera.up, finite_rule);
     for (const ViewSize &size : view_sizes)
-        if (size.value == own.value)
-            subject.check(size.member, camera.*size.value, kind.size_rule);
-        else
+        if (size.value == own.value) {
+            const char *broken = size.broken_rule(camera.*size.value);
+            subject.require(broken == nullptr, size.member, camera.*size.value, broken ? broken : "");
+        } else
             subject.require(camera.*size.value == 0.0, size.member, camera.*size.value,
                             std::string("must be 0 with ") + own.article + ' ' + own.projection +
                                 " projection, which has a " + own.member + " instead");
@@ -103,10 +104,13 @@ std::string digest_of(const Camera &camera) {
     Digest digest;
     for (const glm::dvec3 &vector : {camera.position, camera.right, camera.up, camera.forward})
         digest.add(vector);
-    for (const double number : {camera.tan_half_fov, camera.shutter_open, camera.shutter_close})
+    const bool is_perspective = camera.projection == PT_PROJECTION_PERSPECTIVE;
+    // Tangents are positive, so other numbers say another projection.
+    const double kind = is_perspective ? camera.view_size : 1.0 - camera.projection;
+    for (const double number : {kind, camera.shutter_open, camera.shutter_close})
         digest.add(number);
-    if (camera.is_orthographic())
-        digest.add(camera.vertical_extent);
+    if (!is_perspective)
+        digest.add(camera.view_size);
     if (camera.has_lens())
         for (const double number : {camera.lens_radius, camera.focus})
             digest.add(number);

@@ -14,7 +14,7 @@ const char *no_lens_rule(double value) {
 }
 
 void set_parallel_view(Camera &camera, const pt_camera &source, const Subject &) {
-    camera.vertical_extent = source.vertical_extent;
+    camera.view_size = source.vertical_extent;
 }
 
 // The box of parallel rays, and the cylinder around it.
@@ -22,8 +22,8 @@ class Orthographic final : public BoundedProjection {
 public:
     Orthographic(const Camera &camera, std::uint32_t width, std::uint32_t height) :
         BoundedProjection(camera, width, height),
-        half_right_(0.5 * camera.vertical_extent * width / height * camera.right),
-        half_up_(0.5 * camera.vertical_extent * camera.up),
+        half_right_(0.5 * camera.view_size * width / height * camera.right),
+        half_up_(0.5 * camera.view_size * camera.up),
         radius_(std::hypot(glm::length(half_right_), glm::length(half_up_))) {}
 
     // Rays start before the first surface, by a little more than the view's width, so that no visible surface
@@ -40,23 +40,23 @@ public:
     }
 
     ImagePlace place(const glm::dvec3 &point) const override {
-        return place_at(point, height_ / camera_.vertical_extent, 0.0);
+        return place_at(point, height_ / camera_.view_size, 0.0);
     }
 
     glm::dvec3 origin(const glm::dvec3 &point) const override {
         return point - glm::dot(point, camera_.forward) * camera_.forward;
     }
 
-    double pixel_side(double) const override { return camera_.vertical_extent / height_; }
+    double pixel_side(double) const override { return camera_.view_size / height_; }
 
 private:
     void set_rays(gpu::CameraView &view) const override { view.start_scale = static_cast<float>(pixel_side(0.0)); }
 
     // Squared distances of a wider view would overflow float32.
     void require_held_view() const {
-        const double width = camera_.vertical_extent * width_ / height_;
+        const double width = camera_.view_size * width_ / height_;
         if (width > max_length)
-            refuse_argument("camera", "vertical_extent", number_text(camera_.vertical_extent),
+            refuse_argument("camera", "vertical_extent", number_text(camera_.view_size),
                             "the view's width, vertical_extent times the image's width / height, must be at most 1e18, "
                             "is " +
                                 number_text(width),
@@ -117,7 +117,6 @@ private:
 
 } // namespace
 
-const ProjectionKind orthographic = {positive_length_rule, no_lens_rule, set_parallel_view,
-                                     make_projection<Orthographic>};
+const ProjectionKind orthographic = {no_lens_rule, set_parallel_view, make_projection<Orthographic>};
 
 } // namespace pt

@@ -11,18 +11,8 @@ namespace pt {
 
 namespace {
 
-// The image plane's distance in pixels, height / (2 tan(fov / 2)), must be at most 1e18, so tan(fov / 2) >= 2^31 / 1e18
-// = 2.1e-9. For angles near pi the distance is at least 1e-16 in doubles.
-constexpr double min_vertical_fov = 1e-8;
-
 // In narrower pixels, the error of directions, 2^-24, exceeds 1/1024 of a pixel.
 constexpr double narrow_pixel = 0x1p-14; // side of a pixel at distance 1
-
-const char *fov_rule(double value) {
-    if (!std::isfinite(value))
-        return "must be finite";
-    return value >= min_vertical_fov && value < std::numbers::pi ? nullptr : "must lie in [1e-8, pi)";
-}
 
 const char *lens_rule(double value) {
     return value < 0.0 ? "must be >= 0" : length_rule(value);
@@ -41,7 +31,7 @@ void set_perspective_view(Camera &camera, const pt_camera &source, const Subject
     const double focus = source.focus > 0.0 ? source.focus : glm::distance(vector(source.target), camera.position);
     subject.require(source.aperture <= 2.0 * focus, "aperture", source.aperture,
                     "must be at most twice the focus (" + number_text(focus) + ")");
-    camera.tan_half_fov = tangent(0.5 * source.vertical_fov);
+    camera.view_size = tangent(0.5 * source.vertical_fov);
     camera.lens_radius = 0.5 * source.aperture;
     camera.focus = source.aperture > 0.0 ? focus : 0.0;
 }
@@ -51,7 +41,7 @@ class Perspective final : public BoundedProjection {
 public:
     Perspective(const Camera &camera, std::uint32_t width, std::uint32_t height) :
         BoundedProjection(camera, width, height) {
-        const double up = camera.tan_half_fov;
+        const double up = camera.view_size;
         const double right = up * width / height;
         half_angle_ = std::atan(std::hypot(up, right));
         corners_ = {camera.forward - right * camera.right - up * camera.up,
@@ -82,14 +72,14 @@ public:
 
     ImagePlace place(const glm::dvec3 &point) const override {
         const double depth = glm::dot(point, camera_.forward);
-        return place_at(point, 0.5 * height_ / (depth * camera_.tan_half_fov), camera_.spread(depth));
+        return place_at(point, 0.5 * height_ / (depth * camera_.view_size), camera_.spread(depth));
     }
 
-    double pixel_side(double depth) const override { return depth * (2.0 * camera_.tan_half_fov / height_); }
+    double pixel_side(double depth) const override { return depth * (2.0 * camera_.view_size / height_); }
 
 private:
     void set_rays(gpu::CameraView &view) const override {
-        const double image_distance = height_ / (2.0 * camera_.tan_half_fov);
+        const double image_distance = height_ / (2.0 * camera_.view_size);
         view.forward = camera_.forward * image_distance;
         if (camera_.has_lens()) {
             view.lens_radius = static_cast<float>(camera_.spread(camera_.start_distance));
@@ -152,6 +142,6 @@ private:
 
 } // namespace
 
-const ProjectionKind perspective = {fov_rule, lens_rule, set_perspective_view, make_projection<Perspective>};
+const ProjectionKind perspective = {lens_rule, set_perspective_view, make_projection<Perspective>};
 
 } // namespace pt

@@ -110,7 +110,6 @@ std::unique_ptr<Projection> make_projection(const Camera &camera, std::uint32_t 
 }
 
 struct ProjectionKind {
-    Rule size_rule;
     Rule lens_rule; // rule of aperture and focus
     // The fields, position and target have been checked.
     void (*set_view)(Camera &camera, const pt_camera &source, const Subject &subject);

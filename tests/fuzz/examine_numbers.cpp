@@ -96,7 +96,7 @@ void require_camera(const pt::Camera &camera) {
                 std::abs(glm::dot(camera.right, camera.up)) <= rounding,
             "the camera's axes are perpendicular");
     const double least_tangent = (1.0 - 0x1p-40) * std::tan(0.5e-8); // Keeps 40 bits.
-    require((camera.is_orthographic() || camera.tan_half_fov >= least_tangent) && std::isfinite(camera.tan_half_fov),
+    require((camera.is_orthographic() || camera.view_size >= least_tangent) && std::isfinite(camera.view_size),
             "the field of view lies in [1e-8, pi)");
     require(camera.shutter_open >= 0.0 && camera.shutter_open <= camera.shutter_close && camera.shutter_close <= 1.0,
             "the shutter opens before it closes, in [0, 1]");

@@ -92,7 +92,7 @@ TEST(Camera, HasTheDefaultsOfTheHeader) {
     EXPECT_EQ(camera.forward, glm::dvec3(0, 0, -1));
     EXPECT_EQ(camera.right, glm::dvec3(1, 0, 0));
     EXPECT_EQ(camera.up, glm::dvec3(0, 1, 0));
-    EXPECT_NEAR(camera.tan_half_fov, std::tan(std::numbers::pi / 8), 0x1p-41);
+    EXPECT_NEAR(camera.view_size, std::tan(std::numbers::pi / 8), 0x1p-41);
     EXPECT_EQ(camera.shutter_open, 0.0);
     EXPECT_EQ(camera.shutter_close, 0.0) << "the instant 0, in which nothing moves";
     EXPECT_FALSE(camera.has_lens());

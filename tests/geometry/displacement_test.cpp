@@ -119,8 +119,7 @@ TEST(Displacement, OfLongCapsules) {
     EXPECT_FALSE(displaced_capsule({-1e6, 0, 1.5}, {1e6, 0, 1.5}, 0.5)) << "behind the camera";
     EXPECT_FALSE(displaced_capsule({0, 0, -1e6}, {1e5, 0, -1e6}, 0.5)) << "far away";
     pt::Camera parallel = ahead;
-    parallel.tan_half_fov = 0.0;
-    parallel.vertical_extent = 2.0;
+    parallel.view_size = 2.0;
     parallel.projection = PT_PROJECTION_ORTHOGRAPHIC;
     EXPECT_TRUE(displaced_capsule({-1e5, 0, -1e6}, {1e5, 0, -1e6}, 0.5, parallel));
     EXPECT_FALSE(displaced_capsule({-1e5, 9, -1e6}, {1e5, 9, -1e6}, 0.5, parallel)) << "beside the picture";

@@ -25,7 +25,7 @@ pt::Camera looking_along(const glm::dvec3 &forward, double vertical_fov) {
 
 pt::Camera parallel_along(const glm::dvec3 &forward, double extent) {
     pt::Camera camera = looking_along(forward, 0.0);
-    camera.vertical_extent = extent;
+    camera.view_size = extent;
     camera.projection = PT_PROJECTION_ORTHOGRAPHIC;
     return camera;
 }
@@ -165,7 +165,7 @@ TEST(RayStart, NothingInViewIsBeforeIt) {
         for (int i = 0; i < 100; ++i) {
             const double x = in_view();
             const double y = in_view();
-            const glm::dvec3 through = camera.forward + camera.tan_half_fov * (x * camera.right + y * camera.up);
+            const glm::dvec3 through = camera.forward + camera.view_size * (x * camera.right + y * camera.up);
             glm::dvec3 from = 0.5 * extent * (x * camera.right + y * camera.up);
             glm::dvec3 ray = is_parallel ? camera.forward : glm::normalize(through);
             if (camera.has_lens()) {
@@ -205,7 +205,8 @@ TEST(RayStart, OfATreeIsThatOfItsSpheres) {
     for (int round = 0; round < 300; ++round) {
         pt::Camera camera = looking_along({uniform(-1, 1), uniform(-1, 1), -1.5}, std::pow(10.0, uniform(-6, -2.5)));
         camera.projection = round % 2 == 0 ? PT_PROJECTION_PERSPECTIVE : PT_PROJECTION_ORTHOGRAPHIC;
-        camera.vertical_extent = round % 2 == 0 ? 0.0 : std::pow(10.0, uniform(-4, 1));
+        if (round % 2 != 0)
+            camera.view_size = std::pow(10.0, uniform(-4, 1));
         const bool moves = round % 3 == 0;
         const glm::dvec3 middle = camera_position + (round % 5 == 0 ? 300.0 : 0.0) * camera.forward;
         const auto point = [&](double reach) {

@@ -30,13 +30,13 @@ constexpr pt::Camera camera{.position = {1.0, 2.0, 3.0},
                             .right = {1, 0, 0},
                             .up = {0, 1, 0},
                             .forward = {0, 0, -1},
-                            .tan_half_fov = 1.0,
+                            .view_size = 1.0,
                             .shutter_open = 0.0,
                             .shutter_close = 0.0};
 
 pt::Camera parallel_camera() {
     pt::Camera parallel = camera;
-    parallel.vertical_extent = 200.0;
+    parallel.view_size = 200.0;
     parallel.projection = PT_PROJECTION_ORTHOGRAPHIC;
     return parallel;
 }
