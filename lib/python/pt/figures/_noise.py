@@ -21,7 +21,9 @@ FIRST_SAMPLES: Final = 16  # fewest samples with a stated error
 MOST_SAMPLES: Final = 128  # of a pixel; fine textures hide the remaining noise
 WORST: Final = 1.5  # largest noise of a neighbourhood, relative to MOST_NOISE; by taste
 FLOOR: Final = 1.0  # like WORST, for a floor before its shadows are smoothed
-SHARE: Final = 1.03  # rounds aim at this multiple of the allowed square error; quasi-random samples have less than predicted
+SHARE: Final = 1.15  # the second round aims at this multiple of the allowed square error; quasi-random samples have less than predicted
+LEAST_GROWTH: Final = 1.02  # smaller rounds cost more time than samples
+MOST_STEP: Final = 4.0  # a round multiplies samples by at most this
 SEQUENCES: Final = 1.0 / math.sqrt(7.0)  # the error of quasi-random points may be this fraction of the stated one
 
 Show = Callable[[Array, Array], Array]  # converts light to 16 bits, with the exposure of an image
@@ -72,7 +74,8 @@ def until_invisible(context: Context, scene: Scene, camera: Camera, settings: Re
         squares = squares_of(show, image.radiance, image.standard_error)
         noise, counts = Noise.of(squares[covered]), image.sample_count[::TILE_SIDE, ::TILE_SIDE].astype(np.float64)
         goals = _goals(squares, covered, counts, noise)
-        if (goals == counts).all():
+        is_small = goals.sum() < LEAST_GROWTH * counts.sum() and (goals < 1.5 * counts).all()
+        if (goals == counts).all() or is_small and (noise.high <= MOST_NOISE or counts.max() == MOST_SAMPLES):
             break
         needed = np.maximum(goals, counts * (noise.high / MOST_NOISE)**2).sum()
         ahead = max(done, float(goals.sum() / needed))
@@ -91,7 +94,7 @@ def _goals(squares: Doubles, covered: Array, counts: Doubles, noise: Noise) -> D
     weights = variances * _by_tiles(covered)
     needed = variances / np.square(np.where(weights > 0.0, WORST, FLOOR) * MOST_NOISE)
     if noise.high > MOST_NOISE:
-        most = SHARE * (MOST_NOISE * noise.rms / noise.high)**2 * float(covered.sum())
+        most = (SHARE if counts.max() == FIRST_SAMPLES else 1.0) * (MOST_NOISE * noise.rms / noise.high)**2 * float(covered.sum())
         roots = np.sqrt(weights)
         low, high = 0.0, float(roots.sum()) / most
         for _ in range(50):
@@ -100,7 +103,7 @@ def _goals(squares: Doubles, covered: Array, counts: Doubles, noise: Noise) -> D
             low, high = (middle, high) if left > most else (low, middle)
         needed = np.maximum(needed, high * roots)
     step = 2.0**np.floor(np.log2(counts)) / 4.0
-    goals: Doubles = np.clip(step * np.ceil(needed / step), counts, np.minimum(2.0 * counts, MOST_SAMPLES))
+    goals: Doubles = np.clip(step * np.ceil(needed / step), counts, np.minimum(MOST_STEP * counts, MOST_SAMPLES))
     return goals
 
 

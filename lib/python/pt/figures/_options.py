@@ -200,7 +200,7 @@ class Options:
                              "denoise)")
     seed: int = _samples(0, "N", "seed of the random numbers", read=int,
                          rule=(lambda seed: 0 <= seed < 2**64, "at least 0 and below 2^64"))
-    max_path_length: int = _python(4, "", "as in RenderSettings")
+    max_path_length: int = _python(3, "", "as in RenderSettings")
     device: str | None = _samples(None, "NAME", "device, as in pt render")
     ax: Any = _python(None, "", "axes of matplotlib that get the picture, in their size")
     context: Context | None = _python(None, "", "context for the rendering; its scene and settings are replaced")

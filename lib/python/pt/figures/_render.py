@@ -14,7 +14,7 @@ from pt.figures._options import Direction
 def render(positions: npt.ArrayLike, radii: npt.ArrayLike, colors: npt.ArrayLike | None = None, *,
            size: tuple[int, int] = (640, 480), samples: int | None = None, error: float | None = None,
            camera: Camera | None = None, up: Direction = "z", floor: bool = False, material: Material | None = None,
-           max_path_length: int = 4, denoise: bool = False, seed: int = 0, device: str | None = None,
+           max_path_length: int = 3, denoise: bool = False, seed: int = 0, device: str | None = None,
            context: Context | None = None, progress: Progress | None = None) -> Figure:
     """Renders spheres from arrays, by default with 640 x 480 pixels and 16 samples. Other parameters are as in figure().
 
