@@ -72,7 +72,7 @@ class Drawn:
     def all_radii(self) -> Array:
         if not self.rods:
             return self.radii
-        return np.concatenate([self.radii, *(np.full(len(each.atoms), each.radius) for each in self.rods)])
+        return np.concatenate([self.radii, *(np.broadcast_to(each.radius, len(each.atoms)) for each in self.rods)])
 
 
 def prepare(particles: Particles, options: Options, scale: float | None = None) -> Drawn:
@@ -100,11 +100,10 @@ def prepare(particles: Particles, options: Options, scale: float | None = None) 
     tubes = None
     if options.bond_rule is not None:
         models = models_of(particles, options)
-        stick = 0.0
         if not (models == "tube").all():
             bonds = among_sticks(bonds_of(particles, options, radii, notes), models)
-            settled.update({"bond_radius": bonds.radius} if len(bonds.atoms) else {})
-            stick = bonds.radius
+            stick = float(np.max(bonds.radius))
+            settled.update({"bond_radius": stick} if len(bonds.atoms) else {})
             radii = ball_radii(radii, models, stick, options.radius is not None)
             rods.append(meeting_in_sight(bonds, radii))
         tubes = models == "tube"

@@ -139,9 +139,9 @@ class Options:
         "sticks, and for tubes 0.14 of the median distance of their atoms",
         read=float, rule=(lambda radius: 0.0 < radius < math.inf, "> 0 and finite"))
     vectors: Vectors = _particles(None, "vx,vy,vz", "three columns, or their common name, such as v or velocity; in Python also an array "
-                                  "of shape (n, 3). Each vector is a capsule from the particle's center, in the particle's color")
+                                  "of shape (n, 3). Each vector is an arrow from the particle's center, in the particle's color")
     vector_scale: float | None = _particles(
-        None, "S", "drawn length of a vector of length 1. Default: the longest vector has 4 median radii", read=float,
+        None, "S", "drawn length of a vector of length 1. Default: the longest vector has 9 median radii", read=float,
         rule=(lambda scale: 0.0 < scale < math.inf, "> 0 and finite"))
 
     size: tuple[int, int] | None = _view(None, "WxH", "pixels of the whole picture. Default: as many pixels as 1024x768, in the "

@@ -13,8 +13,13 @@ from pt.figures._options import Vectors
 from pt.figures._particles import Particles
 from pt.figures._select import column
 
-LONGEST: Final = 4.0  # length of the longest vector in median particle radii; by taste
-WIDTH: Final = 0.3
+LONGEST: Final = 9.0  # length of the longest vector in median particle radii; by taste
+WIDTH: Final = 0.3  # largest radius of a shaft in median particle radii; by taste, like the next four values
+HEAD: Final = 2.5  # largest length of a head in median particle radii
+MOST_HEAD: Final = 0.4  # relative to the arrow
+SLOPE: Final = 0.35  # radius of a head's base, relative to its length
+SHAFT: Final = 0.4  # largest radius of a shaft, relative to its head's base
+PIECES: Final = 8  # capsules of a head
 
 
 @dataclass(frozen=True)
@@ -24,23 +29,25 @@ class Rods:
     atoms    indices of these particles
     others   indices of second particles, which must also be shown
     ways     shape (k, 3): from one end to the other
+    radius   one number, or shape (k,)
     starts   shape (k, 3): from the particle's center to the first end; None: 0
     """
 
     atoms: Array
     others: Array
     ways: Doubles
-    radius: float
+    radius: float | Doubles
     starts: Doubles | None = None
 
     def among(self, shown: Array) -> Rods:
         kept = shown[self.atoms] & shown[self.others]
         index = np.cumsum(shown) - 1
         return replace(self, atoms=index[self.atoms[kept]], others=index[self.others[kept]], ways=self.ways[kept],
+                       radius=self.radius if isinstance(self.radius, float) else self.radius[kept],
                        starts=None if self.starts is None else self.starts[kept])
 
     def times(self, scale: float, least: float) -> Rods:
-        return replace(self, ways=self.ways * scale, radius=max(self.radius * scale, least),
+        return replace(self, ways=self.ways * scale, radius=np.maximum(self.radius * scale, least),
                        starts=None if self.starts is None else self.starts * scale)
 
 
@@ -61,7 +68,19 @@ def vectors_of(particles: Particles, given: Vectors, scale: float | None, radii:
     if scale is None:
         scale = LONGEST * unit / longest if longest > 0.0 else 0.0
     atoms = np.flatnonzero(lengths)
-    return Rods(atoms, atoms, vectors[atoms] * scale, WIDTH * unit), scale
+    return _arrows(atoms, vectors[atoms] * scale, unit), scale
+
+
+def _arrows(atoms: Array, ways: Doubles, unit: float) -> Rods:
+    """Shafts, then heads: cones made of capsules whose radii fall to the tip."""
+    lengths = np.linalg.norm(ways, axis=1)
+    heads = np.minimum(HEAD * unit, MOST_HEAD * lengths)
+    left = np.arange(PIECES, -1.0, -1.0)[:, None] / PIECES
+    places = np.concatenate([np.zeros((1, len(ways))), 1.0 - left * heads / lengths])
+    radii = np.concatenate([np.minimum(WIDTH * unit, SHAFT * SLOPE * heads)[None], SLOPE * heads * (left[:-1] - 0.5 / PIECES)])
+    starts, steps = (each[:, :, None] * ways for each in (places[:-1], np.diff(places, axis=0)))
+    rows = np.tile(atoms, PIECES + 1)
+    return Rods(rows, rows, steps.reshape(-1, 3), radii.reshape(-1), starts.reshape(-1, 3))
 
 
 def cell_corners(cell: Cell) -> Doubles:
