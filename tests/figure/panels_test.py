@@ -58,6 +58,13 @@ class Panels(unittest.TestCase):
         found = self.panels(particles(1, np.array(["a", "b"] * 20)), particles(1, np.array(["b", "c"] * 20)), colorbar=True)
         self.assertEqual(found.legend.names, ("a", "b", "c"))
 
+    def test_the_widest_legend_has_room(self):
+        """The last columns of pixels are background, although the second panel has longer names and a wider range."""
+        long = particles(1, np.array(["a", "a longer name"] * 20))
+        for data, options in (((particles(1, np.array(["a"] * 40)), long), {}), ((particles(1), particles(1e5)), {"color": "v"})):
+            picture = self.panels(*data, colorbar=True, size=(360, 60), **options).to_srgb8()
+            self.assertTrue((picture[:, -4:] == 255).all())
+
     def test_what_is_refused(self):
         with self.assertRaisesRegex(ValueError, "panels: must have one data set with columns"):
             self.panels(particles(1), particles(1), columns=["v"])

@@ -12,7 +12,7 @@ from pt._context import Context
 from pt._fit import Doubles
 from pt.figures._accept import load
 from pt.figures._bonds import BALL_SHARE
-from pt.figures._colors import ColorBar, Swatches, joined
+from pt.figures._colors import ColorBar, Legend, Swatches, colors_of, joined
 from pt.figures._drawn import Drawn, prepare
 from pt.figures._figure import Staged, context_of, view_of
 from pt.figures._layout import Layout, View
@@ -40,12 +40,14 @@ class Panels(Picture):
     def __init__(self, sources: Sequence[tuple[Particles, str | None, str]], options: Options) -> None:
         given = [(particles, {"color": column, "title": options.title or " "} if column else {}) for particles, column, _ in sources]
         self.columns = len(sources) if len(sources) <= 3 else math.ceil(math.sqrt(len(sources)))
-        options, view, reaches, scale = _common(iter(given), options, (self.columns, math.ceil(len(sources) / self.columns)))
+        options = styled(given[0][0], options, given[0][0].notes)
+        options = _with_colors_of(_legends(given, options), options)
+        self.legend = joined(_legends(given, options))
+        options, view, reaches, scale = _common(iter(given), options, (self.columns, math.ceil(len(sources) / self.columns)), self.legend)
         layout = Layout.of(view, reaches, options.style, options.floor)
         self.staged = [Staged(prepare(particles, replace(options, **more), scale), layout, options) for particles, more in given]
         self.titles = [title for *_, title in sources]
         self.notes = list(dict.fromkeys(note for each in self.staged for note in each.notes))
-        self.legend = joined([each.drawn.legend for each in self.staged])
 
     def draw(self, context: Context) -> Panels:
         self.figures = [each.draw(context) for each in self.staged]
@@ -76,32 +78,38 @@ def sources_of(data: Sequence[Any], columns: Sequence[str], options: Options) ->
     return [(each, None, PurePath(each.name).stem) for each in loaded]
 
 
-def _common(trajectory: Iterator[tuple[Particles, dict[str, Any]]], options: Options, grid: tuple[int, int] = (1, 1)
-            ) -> tuple[Options, View, Doubles, float]:
+def _legends(given: Sequence[tuple[Particles, dict[str, Any]]], options: Options) -> list[Legend]:
+    return [colors_of(particles, replace(options, **more), [])[1] for particles, more in given]
+
+
+def _with_colors_of(legends: Sequence[Legend], options: Options) -> Options:
+    bars = [legend for legend in legends if isinstance(legend, ColorBar)]
+    names = dict.fromkeys(name for legend in legends if isinstance(legend, Swatches) for name in legend.names)
+    if bars:
+        options = replace(options, range=(min(bar.low for bar in bars), max(bar.high for bar in bars)))
+    return replace(options, categories=tuple(names) or options.categories)
+
+
+def _common(trajectory: Iterator[tuple[Particles, dict[str, Any]]], options: Options, grid: tuple[int, int] = (1, 1),
+            legend: Legend = None) -> tuple[Options, View, Doubles, float]:
     view: View | None = None
     reaches: Doubles | None = None
     scale: float | None = None
-    bars: list[ColorBar] = []
-    names: dict[str, None] = {}
+    legends: list[Legend] = []
     for particles, more in trajectory:
         if view is None:
             options = styled(particles, options, particles.notes)
         drawn = prepare(particles, replace(options, **more), scale)
         if view is None:
             options = replace(options, radius=_rule(particles, drawn, options))
-            view, scale = view_of(drawn, options, grid=grid), drawn.scale
+            view, scale = view_of(replace(drawn, legend=legend or drawn.legend), options, grid=grid), drawn.scale
         options = replace(options, **drawn.settled)
         mine = view.reaches(drawn.balls)
         reaches = mine if reaches is None else np.maximum(reaches, mine)
-        if isinstance(drawn.legend, ColorBar):
-            bars.append(drawn.legend)
-        elif isinstance(drawn.legend, Swatches):
-            names.update(dict.fromkeys(drawn.legend.names))
+        legends.append(drawn.legend)
     if view is None or reaches is None or scale is None:
         raise ValueError("frames: there are none")
-    if bars:
-        options = replace(options, range=(min(bar.low for bar in bars), max(bar.high for bar in bars)))
-    return replace(options, categories=tuple(names) or options.categories), view, reaches, scale
+    return _with_colors_of(legends, options), view, reaches, scale
 
 
 def _rule(particles: Particles, drawn: Drawn, options: Options) -> Radius:
