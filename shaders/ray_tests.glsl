@@ -78,11 +78,6 @@ float distance_to_sphere(Start start, vec3 direction, uint sphere, Ball ball)
                          KINDS);
 }
 
-float distance_to_lamp(Start start, vec3 direction, uint surface, vec4 center_radius)
-{
-    return distance_to_sphere(start, direction, surface, Ball(center_radius, NO_AXIS));
-}
-
 float distance_to_plane(Start start, vec3 direction, uint plane, Level level, float time)
 {
     return plane_distance(level, direction, plane == start.surface, start.inside, camera_height(plane, time));
@@ -119,8 +114,8 @@ void shade_plane(inout bool blocked, Start start, ShadowRay shadow, uint plane, 
 ShadowRay ended_as_met(ShadowRay shadow, Start start, float time)
 {
     if (CLOSE_LAMPS == 1 && shadow.distance > 0.0 && is_walked_lamp(shadow.lamp)) {
-        vec4 lamp = ball_among(WALKED_LAMPS, shadow.lamp, time).center_radius;
-        float distance = distance_to_lamp(start, shadow.direction, shadow.lamp, lamp);
+        Ball lamp = ball_among(WALKED_LAMPS, shadow.lamp, time);
+        float distance = distance_to_sphere(start, shadow.direction, shadow.lamp, lamp);
         shadow.distance = distance < NO_HIT ? distance : shadow.distance;
     }
     return shadow;

@@ -173,12 +173,14 @@ Ball ball_of(uint surface, float time)
     return ball_among(SPHERE_COUNT, surface, time);
 }
 
-vec4 bound_of_lamp(uint lamp, float time)
+Ball ball_of_lamp(uint lamp, float time)
 {
     if (TREE_LAMPS > 0u && lamp >= WALKED_LAMPS)
-        return tree_ball(tree_lamp_place(lamp - WALKED_LAMPS), time).center_radius;
-    return ball_among(WALKED_LAMPS, lamp, time).center_radius;
+        return tree_ball(tree_lamp_place(lamp - WALKED_LAMPS), time);
+    return ball_among(WALKED_LAMPS, lamp, time);
 }
+
+vec4 bound_of_lamp(uint lamp, float time) { return ball_of_lamp(lamp, time).center_radius; }
 
 bool is_walked_lamp(uint surface) { return TREE_LAMPS == 0u || surface < WALKED_LAMPS; }
 

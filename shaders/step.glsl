@@ -162,7 +162,7 @@ bool may_meet_light(Start start, vec3 direction, Hit hit, float time)
     bool met = false;
     FOR_EACH(lamp, 0u, LAMP_COUNT,
              met = met ||
-                   distance_to_lamp(start, direction, surface_of_lamp(lamp), bound_of_lamp(lamp, time)) < NO_HIT);
+                   distance_to_sphere(start, direction, surface_of_lamp(lamp), ball_of_lamp(lamp, time)) < NO_HIT);
     return met;
 }
 

@@ -35,12 +35,12 @@ double smallest_lamp_share(std::span<const Lamp> lamps) {
     constexpr double least_light = 0.01;
     std::vector<std::pair<double, double>> shares;
     double all_light = 0.0;
-    for (const auto &[bound, emission, hidden] : lamps) {
-        const double distance = glm::length(bound.open);
-        if (distance <= bound.radius)
+    for (const Lamp &lamp : lamps) {
+        const double distance = glm::length(lamp.bound.open);
+        if (distance <= lamp.bound.radius)
             continue;
-        const double share = share_of(bound, distance);
-        const double light = share * std::max({emission.r, emission.g, emission.b});
+        const double share = share_of(lamp.bound, distance);
+        const double light = share * std::max({lamp.emission.r, lamp.emission.g, lamp.emission.b});
         shares.emplace_back(share, light);
         all_light += light;
     }

@@ -6,6 +6,7 @@
 #include "lib/scene/view_sizes.h"
 #include "lib/view/projection.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
@@ -47,14 +48,16 @@ void check_fields(const pt_camera &camera, const ViewSize &own, const Projection
     subject.check_each("position", camera.position, length_rule);
     subject.check_each("target", camera.target, length_rule);
     subject.check_each("up", camera.up, finite_rule);
-    for (const ViewSize &size : view_sizes)
-        if (size.value == own.value) {
-            const char *broken = size.broken_rule(camera.*size.value);
-            subject.require(broken == nullptr, size.member, camera.*size.value, broken ? broken : "");
-        } else
-            subject.require(camera.*size.value == 0.0, size.member, camera.*size.value,
+    for (const ViewSize &size : view_sizes) {
+        const double value = camera.*size.value;
+        const bool is_first = std::ranges::find(view_sizes, size.value, &ViewSize::value) == &size;
+        if (const char *broken = size.broken_rule(value); broken && &size == &own)
+            subject.refuse(size.member, number_text(value), broken);
+        else if (is_first && size.value != own.value)
+            subject.require(value == 0.0, size.member, value,
                             std::string("must be 0 with ") + own.article + ' ' + own.projection +
                                 " projection, which has a " + own.member + " instead");
+    }
     subject.check("aperture", camera.aperture, kind.lens_rule);
     subject.check("focus", camera.focus, kind.lens_rule);
     subject.check("shutter_open", camera.shutter_open, shutter_rule);

@@ -38,7 +38,7 @@ Losses losses_of(const SphereTree *tree, double length, double radius) {
 }
 
 Losses losses_of(const SphereTree *tree, const MovingBall &surface) {
-    return losses_of(tree, surface.kind == Kind::capsule ? glm::length(surface.way) : 0.0, surface.radius);
+    return losses_of(tree, surface.kind != Kind::ball ? glm::length(surface.way) : 0.0, surface.radius);
 }
 
 class PixelSides {
@@ -103,7 +103,7 @@ Displaced most_displaced(const PreparedScene &scene, const Camera &camera, const
     };
     const std::vector<Sphere> &spheres = scene.scene.spheres;
     for (std::size_t i = 0; i < spheres.size(); ++i)
-        if (spheres[i].kind == Kind::capsule && !scene.scene.materials[spheres[i].material].hidden)
+        if (spheres[i].kind != Kind::ball && !scene.scene.materials[spheres[i].material].hidden)
             take(place_of_sphere(scene.scene, i), seen_ball(spheres[i].ball(), camera), nullptr);
     const SphereTree *tree = scene.tree.get();
     if (tree == nullptr)

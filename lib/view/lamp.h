@@ -6,6 +6,7 @@
 
 #include <glm/glm.hpp>
 
+#include <cstdint>
 #include <vector>
 
 namespace pt {
@@ -21,13 +22,14 @@ struct Lamp {
     MovingBall bound; // relative to the camera
     glm::vec3 emission;
     bool hidden = false;
+    std::uint32_t number = 0; // in the kernel
 
     // Proportional to the light that a distant point gets.
     double power() const { return double{mean(emission)} * bound.radius * bound.radius; }
 };
 
 inline Lamp lamp_of(const Sphere &sphere, const Material &material, const Camera &camera) {
-    return {seen_ball(sphere.ball(), camera), material.emission, material.hidden};
+    return {ball_about(seen_ball(sphere.ball(), camera)), material.emission, material.hidden};
 }
 
 // Returns all emitting surfaces that have a bounding ball.

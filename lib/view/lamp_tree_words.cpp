@@ -39,16 +39,15 @@ Ball ball_of(const MovingBall &ball) {
 
 // Divides powers by the largest power. If the lamps' extent is above 1, multiplies powers by the extent. The kernel's
 // quotients of power and squared distance are then between 1e-17 and 1e17.
-std::vector<ScaledLamp> scaled_lamps(std::span<const TreeLamp> lamps) {
+std::vector<ScaledLamp> scaled_lamps(std::span<const Lamp> lamps) {
     double largest_power = 0.0;
     double size = 1.0;
     std::vector<ScaledLamp> scaled;
     scaled.reserve(lamps.size());
-    for (const TreeLamp &lamp : lamps) {
-        const MovingBall &bound = lamp.lamp.bound;
-        scaled.push_back({ball_of(bound), lamp.lamp.power(), lamp.number});
+    for (const Lamp &lamp : lamps) {
+        scaled.push_back({ball_of(lamp.bound), lamp.power(), lamp.number});
         largest_power = std::max(largest_power, scaled.back().power);
-        size = std::max(size, glm::length(bound.open - lamps.front().lamp.bound.open));
+        size = std::max(size, glm::length(lamp.bound.open - lamps.front().bound.open));
     }
     const double unit = std::exp2(std::floor(std::log2(largest_power)));
     const double factor = std::exp2(std::floor(std::log2(size)));
@@ -106,7 +105,7 @@ std::uint64_t lamp_tree_words(std::uint32_t lamp_count, bool motion) {
            (std::uint64_t{lamp_count} + 3) / 4;
 }
 
-void write_lamp_tree(std::span<glm::vec4> words, std::span<const TreeLamp> lamps, bool motion) {
+void write_lamp_tree(std::span<glm::vec4> words, std::span<const Lamp> lamps, bool motion) {
     const LampTreeShape shape(static_cast<std::uint32_t>(lamps.size()));
     const std::vector<ScaledLamp> scaled = scaled_lamps(lamps);
     const std::uint64_t group_words = gpu::lamp_tree_group_words(motion ? 1 : 0);

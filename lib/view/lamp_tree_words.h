@@ -14,12 +14,7 @@ constexpr std::uint32_t least_tree_lamps = 32;
 
 std::uint64_t lamp_tree_words(std::uint32_t lamp_count, bool motion);
 
-struct TreeLamp {
-    Lamp lamp;
-    std::uint32_t number;
-};
-
 // `words` must have the size lamp_tree_words(). `lamps` must be in the tree's order.
-void write_lamp_tree(std::span<glm::vec4> words, std::span<const TreeLamp> lamps, bool motion);
+void write_lamp_tree(std::span<glm::vec4> words, std::span<const Lamp> lamps, bool motion);
 
 } // namespace pt

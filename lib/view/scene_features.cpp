@@ -75,15 +75,15 @@ std::uint64_t loop_trips_per_branch(const Features &features) {
 
 } // namespace
 
-Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfaces, const PreparedScene &scene,
+Features features_of(const SeenScene &distinct, const KernelSurfaces &surfaces, const PreparedScene &scene,
                      const Camera &camera, const RenderSettings &render) {
     const auto lamps = std::span(surfaces.spheres).first(surfaces.lamp_count);
     const auto glows = [&](const CurvedPlane &plane) { return emits(scene.scene.materials[plane.material]); };
-    const auto is_behind_a_plane = [&](const SeenSphere &lamp) { return !is_in_region(distinct.seen.planes, lamp); };
+    const auto is_behind_a_plane = [&](const SeenSphere &lamp) { return !is_in_region(distinct.planes, lamp); };
     const auto divides = [&](const auto &surface) { return divides_start(surface, camera); };
     const auto is_at_camera = [&](const SeenSphere &sphere) { return may_hold_origin(sphere) || divides(sphere); };
     const auto lies_apart = [&](const SeenSphere &sphere) {
-        return pt::lies_apart(sphere, distinct.seen, scene.tree.get(), camera);
+        return pt::lies_apart(sphere, distinct, scene.tree.get(), camera);
     };
     const auto may_hold_paths = [&](const SeenSphere &sphere) {
         return sphere.hidden ? !lies_apart(sphere) : is_at_camera(sphere);
@@ -94,7 +94,7 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
     };
     const bool planes_are_passed =
         std::ranges::any_of(surfaces.planes, [](const CurvedPlane &plane) { return plane.hidden; });
-    const bool planes_divide = std::ranges::any_of(distinct.seen.planes, divides);
+    const bool planes_divide = std::ranges::any_of(distinct.planes, divides);
     const SphereTree *const tree = scene.tree.get();
     const auto tree_lamps = tree ? static_cast<std::uint32_t>(tree->lamp_materials().size()) : 0;
     const std::uint32_t lamp_count = surfaces.lamp_count + tree_lamps;
@@ -114,7 +114,7 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
     features[gpu::ID_HIDDEN_SKIES] = surfaces.hidden.skies;
     features[gpu::ID_HIDDEN_OTHERS] = surfaces.hidden.others;
     features[gpu::ID_HIDDEN_PLANES] = surfaces.hidden.planes;
-    features[gpu::ID_CURVATURE] = surfaces.planes.size() > distinct.seen.planes.size();
+    features[gpu::ID_CURVATURE] = surfaces.planes.size() > distinct.planes.size();
     features[gpu::ID_TREE_LEVELS] = tree ? rounded_up(tree->depth()) : 0;
     features[gpu::ID_TREE_OPACITY] = tree && tree->has_opacities();
     features[gpu::ID_TREE_INSIDE] =
@@ -124,11 +124,11 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
     // Curved planes may bulge towards the camera.
     features[gpu::ID_PLANES_BLOCK] = features[gpu::ID_CURVATURE] || planes_divide || planes_are_passed ||
                                      std::ranges::any_of(lamps, is_behind_a_plane) ||
-                                     (tree_lamps > 0 && !is_in_region(distinct.seen.planes, tree->bounds(), camera));
+                                     (tree_lamps > 0 && !is_in_region(distinct.planes, tree->bounds(), camera));
     // Sides are not known if rays start on both sides of a surface or pass through it. Distinct flat planes do not need
     // known sides.
-    const bool starts_divided = distinct.seen.any_surface(divides) || (tree && tree->divides_start(camera));
-    const bool some_are_passed = planes_are_passed || std::ranges::any_of(distinct.seen.spheres, is_passed);
+    const bool starts_divided = distinct.any_surface(divides) || (tree && tree->divides_start(camera));
+    const bool some_are_passed = planes_are_passed || std::ranges::any_of(distinct.spheres, is_passed);
     features[gpu::ID_KNOWN_SIDES] =
         !starts_divided && !some_are_passed && !features[gpu::ID_TREE_OPACITY] &&
         (features[gpu::ID_INSIDE] || features[gpu::ID_CURVATURE] || distinct.close_planes) &&

@@ -5,7 +5,6 @@
 #include "lib/scene/render_settings.h"
 #include "lib/view/kernel_surfaces.h"
 #include "lib/view/prepared_scene.h"
-#include "lib/view/twins.h"
 #include "shaders/specialization.h"
 
 #include <array>
@@ -31,7 +30,7 @@ struct Features {
     std::uint32_t walked_lamps() const { return constants[gpu::ID_LAMP_COUNT] - constants[gpu::ID_TREE_LAMPS]; }
 };
 
-Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfaces, const PreparedScene &scene,
+Features features_of(const SeenScene &distinct, const KernelSurfaces &surfaces, const PreparedScene &scene,
                      const Camera &camera, const RenderSettings &render);
 
 bool samples_lamps(const Features &features);

@@ -45,6 +45,8 @@ CurvedPlane curved_plane(const SeenSphere &sphere);
 struct SeenScene {
     std::vector<SeenSphere> spheres;
     std::vector<CurvedPlane> planes;
+    bool close_lamps = false;
+    bool close_planes = false;
 
     template <typename Is>
     bool any_surface(const Is &is) const {

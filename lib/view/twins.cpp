@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <utility>
 
 namespace pt {
 
@@ -142,12 +141,12 @@ bool has_close_planes(const std::vector<CurvedPlane> &planes) {
 
 } // namespace
 
-DistinctScene without_twins(SeenScene seen) {
+SeenScene without_twins(SeenScene seen) {
     merge_twins(seen.spheres);
     merge_twins(seen.planes);
-    const bool close_lamps = has_close_lamps(seen.spheres);
-    const bool close_planes = has_close_planes(seen.planes);
-    return {std::move(seen), close_lamps, close_planes};
+    seen.close_lamps = has_close_lamps(seen.spheres);
+    seen.close_planes = has_close_planes(seen.planes);
+    return seen;
 }
 
 } // namespace pt

@@ -106,22 +106,23 @@ private:
     const SceneBlocks blocks_;
 };
 
-std::vector<TreeLamp> tree_lamps(const KernelSurfaces &surfaces, const PreparedScene &scene, const Camera &camera) {
+std::vector<Lamp> lamps_in_tree_order(const KernelSurfaces &surfaces, const PreparedScene &scene,
+                                      const Camera &camera) {
     constexpr std::uint32_t no_lamp = 0xffffffff;
     const auto sphere_count = static_cast<std::uint32_t>(scene.scene.spheres.size());
     std::vector<std::uint32_t> lamp_of_sphere(sphere_count, no_lamp);
     for (std::uint32_t lamp = 0; lamp < surfaces.lamp_count; ++lamp)
         lamp_of_sphere[surfaces.spheres[lamp].index] = lamp;
-    std::vector<TreeLamp> lamps;
+    std::vector<Lamp> lamps;
     lamps.reserve(scene.lamp_order.size());
     for (const std::uint32_t sphere : scene.lamp_order) {
         if (sphere >= sphere_count) {
             const Sphere in_tree = scene.tree->lamp(sphere - sphere_count);
-            lamps.push_back({lamp_of(in_tree, scene.scene.materials[in_tree.material], camera),
-                             surfaces.lamp_count + sphere - sphere_count});
+            lamps.push_back(lamp_of(in_tree, scene.scene.materials[in_tree.material], camera));
+            lamps.back().number = surfaces.lamp_count + sphere - sphere_count;
         } else if (const std::uint32_t lamp = lamp_of_sphere[sphere]; lamp != no_lamp) {
             const SeenSphere &seen = surfaces.spheres[lamp];
-            lamps.push_back({{seen, scene.scene.materials[seen.material].emission}, lamp});
+            lamps.push_back({ball_about(seen), scene.scene.materials[seen.material].emission, seen.hidden, lamp});
         }
     }
     return lamps;
@@ -156,7 +157,7 @@ std::vector<glm::vec4> words_of(const KernelSurfaces &surfaces, const std::vecto
     if (features[gpu::ID_LAMP_TREE_WORDS] > 0) {
         const SceneBlocks blocks(features);
         write_lamp_tree(std::span(words).subspan(blocks.lamp_tree, features[gpu::ID_LAMP_TREE_WORDS]),
-                        tree_lamps(surfaces, scene, camera), features[gpu::ID_MOTION]);
+                        lamps_in_tree_order(surfaces, scene, camera), features[gpu::ID_MOTION]);
     }
     return words;
 }
@@ -200,9 +201,9 @@ View view_of(const PreparedScene &scene, const Camera &camera, const RenderSetti
     return view_of(without_twins(std::move(seen)), scene, start, settings);
 }
 
-View view_of(const DistinctScene &distinct, const PreparedScene &scene, const Camera &start,
+View view_of(const SeenScene &distinct, const PreparedScene &scene, const Camera &start,
              const RenderSettings &settings) {
-    const KernelSurfaces surfaces = kernel_surfaces(distinct.seen, scene.tree.get(), start);
+    const KernelSurfaces surfaces = kernel_surfaces(distinct, scene.tree.get(), start);
     Features features = features_of(distinct, surfaces, scene, start, settings);
     const std::vector<LightSpot> spots = light_spots(surfaces, scene.scene.materials, features);
     features[gpu::ID_SPOT_COUNT] = static_cast<std::uint32_t>(spots.size());

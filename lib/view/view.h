@@ -27,7 +27,7 @@ struct View {
 // Throws PT_ERROR_UNSUPPORTED if a nearly flat sphere moves too far.
 View view_of(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings);
 
-View view_of(const DistinctScene &distinct, const PreparedScene &scene, const Camera &start,
+View view_of(const SeenScene &distinct, const PreparedScene &scene, const Camera &start,
              const RenderSettings &settings);
 
 } // namespace pt

@@ -27,20 +27,20 @@ pt::Scene scene_of(const std::vector<Sphere> &spheres, const std::vector<Plane> 
     return scene;
 }
 
-pt::DistinctScene without_twins(const pt::Scene &scene) {
+pt::SeenScene without_twins(const pt::Scene &scene) {
     return pt::without_twins(pt::seen_scene(scene, camera()));
 }
 
 std::vector<double> distinct(const std::vector<Sphere> &spheres) {
     std::vector<double> radii;
-    for (const pt::SeenSphere &sphere : without_twins(scene_of(spheres, {})).seen.spheres)
+    for (const pt::SeenSphere &sphere : without_twins(scene_of(spheres, {})).spheres)
         radii.push_back(sphere.radius);
     return radii;
 }
 
 std::vector<std::uint32_t> distinct_planes(const std::vector<Plane> &planes) {
     std::vector<std::uint32_t> materials;
-    for (const pt::CurvedPlane &plane : without_twins(scene_of({}, planes)).seen.planes)
+    for (const pt::CurvedPlane &plane : without_twins(scene_of({}, planes)).planes)
         materials.push_back(plane.material);
     return materials;
 }
