@@ -9,7 +9,7 @@ PAGES += [*(ROOT / "tests").glob("*/**/*.md"), *(ROOT / "lib").glob("*/*.md")]
 CURRENT = [page for page in PAGES if page.name not in ("CHANGELOG.md", "NOTEBOOK.md")]
 CODE = re.compile(r"\.(h|c|cpp|glsl|comp|diff|py|json|csv|cmake|sh)$|^CMakeLists\.txt$")
 
-MOST_WORDS = {"README.md": 1220, "CONTRIBUTING.md": 1300, "cli/README.md": 4500, "shaders/README.md": 5850,
+MOST_WORDS = {"README.md": 1220, "CONTRIBUTING.md": 1350, "cli/README.md": 4500, "shaders/README.md": 5800,
               "shaders/COURSEWORK.md": 1200, "tests/bench/README.md": 1200}
 MOST_WORDS_IN_ALL = 22_000
 
