@@ -111,16 +111,6 @@ class Categories(unittest.TestCase):
         self.assertIsInstance(colored("id", Particles(POSITIONS[:3], {"id": np.array([5, 7, 5])}), categories=True)[1],
                               Swatches)
 
-    def test_a_word_that_is_no_type_is_looked_for_in_the_columns(self):
-        residues = Particles(POSITIONS[:2], {"chain": np.array(["A", "B"]), "resname": np.array(["XK2", "ALA"])},
-                             elements=np.array([6, 8], np.uint8))
-        with self.assertRaisesRegex(ValueError, "^color: 'XK2' is none of the elements, C, O; it is in the column resname: "
-                                    r"--color resname \(color='resname'\) colors by it$"):
-            colored("XK2=red", residues)
-        with self.assertRaisesRegex(ValueError, "^color: 'XK3' is none of the elements, C, O$"):
-            colored({"C": "red", "XK3": "red"}, residues)
-        self.assertEqual(colored("resname", residues)[1].names, ("ALA", "XK2"))
-
     def test_colors_that_are_given(self):
         given = np.random.default_rng(9).integers(0, 256, (COUNT, 3)).astype(np.uint8)
         for colors in (given, given / 255.0, (given / 255.0).astype(np.float32), given.astype(np.uint16) * 257,

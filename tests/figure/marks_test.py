@@ -72,6 +72,14 @@ class Marks(unittest.TestCase):
                 unit = vectors[name] / np.linalg.norm(vectors[name])
                 np.testing.assert_allclose(way, ARROW * page.em * np.array([unit @ right, -(unit @ above)]), atol=1e-6)
 
+    def test_axes_and_bar_are_in_corners_without_particles(self):
+        balls = np.array([[-3.0, 0, -2], [3, 0, -2], [0, 0, 2]])
+        for turned in (balls, balls * (1, 1, -1)):
+            figure, page, _ = self.page(turned, axes=True, scale_bar="1", size=(360, 240))
+            bar = page.axes.patches[0]
+            places = [bar.get_xy(), np.add(bar.get_xy(), (bar.get_width(), bar.get_height())), *(each.get_position() for each in page.axes.texts)]
+            self.assertEqual([figure._shares.shapes[int(down), int(across)] for across, down in places], [0.0] * len(places))
+
     def test_vectors_are_over_the_picture_at_the_exact_size(self):
         """8.5 cm are 240.945 points. The embedded picture equals the picture without words, bit for bit."""
         options = {"color": "v", "colorbar": True, "labels": "n", "axes": True, "scale_bar": "2 nm", "title": "E"}
@@ -100,7 +108,3 @@ class Marks(unittest.TestCase):
                 prepare(Particles(ROW, {"n": np.arange(3)}), Options(radius=1.0, **options))
         with self.assertRaisesRegex(ValueError, "labels: has 1,001 words: must have at most 1,000"):
             prepare(Particles(np.eye(3).repeat(334, axis=0)[:1001]), Options(radius=1.0, labels="x"))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -115,7 +115,3 @@ class Pictures(unittest.TestCase):
         found = pt.figure(POSITIONS, radius=0.3, size=(64, 48), samples=16, exposure=None)
         same = pt.figure(POSITIONS, radius=0.3, size=(64, 48), samples=16, exposure=automatic_exposure(found.radiance))
         self.assertEqual(found.noise, same.noise)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -213,13 +213,6 @@ class Files(unittest.TestCase):
             found = self.read("CONFIG", b"made up", **{"ase.io": ase_io, "ase.io.formats": formats})
             np.testing.assert_array_equal(found.cell.origin, origin)
 
-    def test_chemfiles_where_it_has_no_wheel(self):
-        for system, machine, way in (("linux", "aarch64", "CMAKE_POLICY_VERSION_MINIMUM=3.5 pip install chemfiles, which"),
-                                     ("linux", "x86_64", "pip install 'pt"), ("darwin", "arm64", "pip install 'pt")):
-            with (unittest.mock.patch("sys.platform", system), unittest.mock.patch("platform.machine", return_value=machine),
-                  self.assertRaisesRegex(DataError, f"a.sdf: sdf needs the module chemfiles: {way}")):
-                self.read("a.sdf", b"data", chemfiles=None)
-
     def test_standard_input(self):
         """Only the package's own readers accept standard input, which may be compressed."""
         program = "import sys\nfrom pt.figures import load\nprint(load('-', frame=0).positions.tolist())"

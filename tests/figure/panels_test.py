@@ -76,7 +76,3 @@ class Panels(unittest.TestCase):
         figure = pt.figure(POSITIONS, radius=0.3, samples=1, ax=axes, context=self.context)
         self.assertEqual(figure.picture_size, (80, 50))
         np.testing.assert_array_equal(axes.images[0].get_array(), figure.to_srgb8())
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -73,7 +73,3 @@ class Paper(unittest.TestCase):
         drawn = prepare(Particles(POSITIONS), Options(radius=0.3))
         free, printed = (view_of(drawn, Options(radius=0.3, **options)).size for options in ({}, {"width": "10cm"}))
         self.assertAlmostEqual(printed[0] / printed[1], free[0] / free[1], delta=0.01)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -99,7 +99,3 @@ class Uses(unittest.TestCase):
                                ("radius = 'chain A=x': must be like", {"radius": "chain A=x"})):
             with self.subTest(words=words), self.assertRaisesRegex(ValueError, words):
                 prepare(particles(), Options(**options))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -174,8 +174,6 @@ CASES = (
      "Fe O", {"x": [1, 0]}),
     ("volume.vasp", POSCAR.format(scale=-192, rest="Si_pv\n1\nd\n0.5 0 0"), "Si", {"cell": [4, 6, 8], "x": [2]}),
     ("unnamed", POSCAR.format(scale=1.0, rest="  C\n  1\nDirect\n 0.5 0 0"), "C", {"x": [1]}),
-    ("slab.xsf", "SLAB\nPRIMVEC\n2 0 0\n0 3 0\n0 0 4\nPRIMCOORD\n2 1\n6 0 0 0\nO 1 0 0 0.1 0 0\n", "C O", {"periodic": [True, True, False]}),
-    ("steps.axsf", "ANIMSTEPS 2\nATOMS 1\nO 0 0 0\nATOMS 2\nO 5 0 0\n", "O", {"x": [5]}),
 
     ("water.sdf", SDF, "O H H", {"bonds": [[0, 1], [0, 2]]}),
     ("two.sdf", SDF + SDF.replace(" 9.0000", " 8.0000"), "O H H", {"x": [0, 0.96, 9], "note": "molecule 0 of 2 is shown"}),
@@ -203,7 +201,6 @@ REFUSED = (
     ("a.data", lammps("1 1 0 0 0", types=1, hint=" # full"), "a.data:12: '1 1 0 0 0': has 5 columns; atom_style full has 7"),
     ("a.data", lammps("1 1 0 0 0", types=1, more="1 bonds") + "\nBonds\n\n1 1 1 9\n", "a.data: Bonds: atom 9: must be the number of an atom"),
     ("POSCAR", POSCAR.format(scale=1, rest="C\n2\nDirect\n0 0 0"), "POSCAR:9: the file ends after 1 of 2 particles"),
-    ("a.xsf", "PRIMVEC\n1 0\n", "a.xsf:2: '1 0': must have 3 numbers"),
     ("a.psf", "PSF\n", "a.psf: has no positions: give it as the topology of a trajectory"),
     ("a.xtc", b"\0\0\7\xcb", "a.xtc: has positions alone: topology must name a file"),
     ("a.xyz", b"1" * (1 << 25), "a.xyz:1: the line is longer than 16,777,216 bytes: this is no text"),

@@ -2,7 +2,6 @@ import gzip
 import importlib.util
 import pathlib
 import struct
-import tempfile
 import unittest
 import unittest.mock
 import warnings
@@ -23,18 +22,16 @@ NEEDS = {".pdb": "gemmi", ".ent": "gemmi", ".pdbqt": "gemmi", ".cif": "gemmi", "
          ".cml": "chemfiles", ".gsd": "gsd"}
 
 
-class InAFolder(unittest.TestCase):
+class InAFolder(readers_test.InAFolder):
     def setUp(self):
-        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+        super().setUp()
         self.enterContext(warnings.catch_warnings())
         warnings.simplefilter("error")
 
     def read(self, name, content, **options):
-        path = self.folder / name
-        path.write_bytes(content if isinstance(content, bytes) else content.encode())
         if not HAS.get(NEEDS.get(pathlib.Path(name).suffix, ""), True):
             self.skipTest(f"{NEEDS[pathlib.Path(name).suffix]} is not installed")
-        return load(path, **options)
+        return super().read(name, content, **options)
 
     def check(self, found, atoms, *, x=None, cell=0, origin=None, periodic=None, bonds=None, radii=None, note=None):
         if isinstance(atoms, str):

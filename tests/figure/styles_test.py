@@ -193,7 +193,3 @@ class Covers(unittest.TestCase):
         self.assertGreater(staged.layout.camera.aperture, 0.0)
         self.assertGreater(staged.layout.stage.material.glossiness, 0.0)
         self.assertIsNotNone(staged.layout.stage.floor)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -87,7 +87,3 @@ class Models(unittest.TestCase):
     def test_the_solvent_accessible_surface(self):
         radii = radii_of(particles_of(chain(HELIX)), "solvent-accessible", [])
         np.testing.assert_allclose(radii, VAN_DER_WAALS_RADII[6] + 1.4, rtol=1e-6)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -16,7 +16,6 @@ from pt.figures._particles import Particles, Table
 Array = npt.NDArray[Any]
 
 NEGLIGIBLE: Final = 1e-12
-MANY_COLUMNS: Final = 1000
 _COLORS: Final = (("red", "green", "blue", "alpha"), ("r", "g", "b", "a"),
                   ("diffuse_red", "diffuse_green", "diffuse_blue", "diffuse_alpha"),
                   *(tuple(f"{name}[{i}]" for i in range(4)) for name in ("color", "colors", "rgb", "rgba")),
@@ -40,8 +39,6 @@ def assembled(name: str, given: Table, mapping: Mapping[str, str], drop_nonfinit
         found.elements = found.types = None
         _put_labels(found, chosen)
     found = _with_extent(found)
-    if len(parts) > MANY_COLUMNS:
-        notes.append(f"{len(parts):,} columns, of which a figure uses few: is this a table of particles in rows?")
     return _finite(found, drop_nonfinite)
 
 

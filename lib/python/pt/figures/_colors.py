@@ -199,15 +199,9 @@ def _of_types(particles: Particles, given: Options, own: Mapping[str, str]) -> t
         known = {name: tuple(elements.COLORS[number].tolist()) for name, number in zip(names, numbers)}
     there = names if isinstance(given.categories, bool) else given.categories
     if missing := [name for name in own if name not in there]:
-        raise ValueError(f"color: {missing[0]!r} is none of the {kind}s, {', '.join(there[:20])}" +
-                         _found_in(particles, missing[0]))
+        raise ValueError(f"color: {missing[0]!r} is none of the {kind}s, {', '.join(there[:20])}; a selection is like resname XK2")
     known.update((str(name), srgb(f"color of {name}", color)) for name, color in own.items())
     return _of_categories(given.title or kind, names, codes, given, known, labels.dtype.kind in "if")
-
-
-def _found_in(particles: Particles, word: str) -> str:
-    found = [name for name, values in particles.columns.items() if values.dtype.kind in "US" and (values.astype(str) == word).any()]
-    return f"; it is in the column {' and '.join(found)}: --color {found[0]} (color={found[0]!r}) colors by it" if found else ""
 
 
 def _of_categories(title: str, names: list[str], codes: Array, given: Options, known: Mapping[str, RGB], numbered: bool

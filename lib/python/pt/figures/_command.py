@@ -20,7 +20,7 @@ from pt.figures._accept import frames as read_frames
 from pt.figures._figure import Figure, Staged
 from pt.figures._legend import LEGENDS, save_legend
 from pt.figures._movies import MOVIES, check_movie, write_movie
-from pt.figures._options import Options, two
+from pt.figures._options import Options, several
 from pt.figures._picture import PAGES
 from pt.figures._series import Panels, frames, sources_of, turntable
 
@@ -64,7 +64,7 @@ def parser() -> argparse.ArgumentParser:
     add("--panels", type=lambda text: text.split(","), default=[], metavar="COLUMN,...", help="a panel for each of these colors; all share one range")
     add("--turntable", type=at_least(2, int), metavar="N", help="N pictures of a full turn about the vertical axis; lamps move "
         "with the camera")
-    add("--frames", type=typed(two("-", int), "two frames like 0-99"), metavar="A-B", help="a picture of each frame")
+    add("--frames", type=typed(several(2, "-", int), "two frames like 0-99"), metavar="A-B", help="a picture of each frame")
     add("--progress", choices=("auto", "json", "none"), default="auto")
     add("-q", "--quiet", action="store_true", help="print errors only")
     groups: dict[str, Any] = {}

@@ -41,18 +41,19 @@ def compose(radiance: npt.NDArray[np.float32], stage: Any, shares: Shares, expos
 def smoothed(shadow: Array, error: Array, floor: Array) -> Array:
     """Averages windows of floor pixels whose spread is due to noise (Lee 1980, "Digital Image Enhancement and Noise Filtering by Use of
     Local Statistics")."""
-    count = np.maximum(_window(floor), 1)[:, :, None]
-    mean, square, noise = (_window(np.where(floor[:, :, None], each, 0.0)) / count for each in (shadow, shadow**2, error**2))
+    count = np.maximum(around(floor, WINDOW), 1)[:, :, None]
+    mean, square, noise = (around(np.where(floor[:, :, None], each, 0.0), WINDOW) / count for each in (shadow, shadow**2, error**2))
     spread = (square - mean**2).sum(axis=2, keepdims=True)
     kept = np.clip(1.0 - noise.sum(axis=2, keepdims=True) / np.maximum(spread, 1e-30), 0.0, 1.0)
     return np.where(floor[:, :, None], mean + kept * (shadow - mean), shadow)
 
 
-def _window(values: Array) -> Array:
-    padded: Any = np.pad(values.astype(np.float64), [(WINDOW // 2, WINDOW // 2)] * 2 + [(0, 0)] * (values.ndim - 2))
+def around(values: Array, side: int) -> Doubles:
+    """Returns sums over windows of side x side pixels."""
+    padded: Any = np.pad(values.astype(np.float64), [(side // 2, side // 2)] * 2 + [(0, 0)] * (values.ndim - 2))
     height, width = values.shape[:2]
-    rows: Any = sum(padded[down:down + height] for down in range(WINDOW))
-    sums: Array = sum(rows[:, right:right + width] for right in range(WINDOW))
+    rows: Any = sum(padded[down:down + height] for down in range(side))
+    sums: Doubles = sum(rows[:, right:right + width] for right in range(side))
     return sums
 
 

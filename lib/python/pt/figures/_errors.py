@@ -1,8 +1,6 @@
 from __future__ import annotations
 
 import importlib
-import platform
-import sys
 from types import ModuleType
 from typing import Final
 
@@ -23,6 +21,4 @@ def module(name: str, purpose: str) -> ModuleType:
         if (error.name or name).partition(".")[0] != package:
             raise
         way = f"pip install 'pt[{EXTRAS[package]}]', or {package} alone" if package in EXTRAS else f"pip install {package}"
-        if package == "chemfiles" and sys.platform == "linux" and platform.machine() != "x86_64":  # no wheel
-            way = "CMAKE_POLICY_VERSION_MINIMUM=3.5 pip install chemfiles, which compiles it by your C++ compiler"
         raise DataError(f"{purpose} needs the module {package}: {way}") from None

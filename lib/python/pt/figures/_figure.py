@@ -16,7 +16,7 @@ from pt._context import Context
 from pt._display import automatic_exposure, linear, to_pixels
 from pt._enums import Quantity
 from pt._exr import encode_exr
-from pt._files import Path, format_of, write_atomically
+from pt._files import Path, format_of
 from pt._film import TILE_SIDE
 from pt._fit import Array, Doubles
 from pt._image import Image

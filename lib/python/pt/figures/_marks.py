@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import io
+import math
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -109,6 +110,7 @@ class Page:
 
     def __init__(self, size: Sequence[int], dpi: float, font: float, ink: str) -> None:
         self.size, self.dpi, self.font, self.ink, self.em = size, dpi, font, ink, font * dpi / POINTS_PER_INCH
+        self.taken: dict[tuple[int, ...], float] = {}
         self.sheet = matplotlib("figure").Figure(figsize=[(side + HAIR) / dpi for side in size], facecolor="none")
         self.axes = self.sheet.add_axes((0.0, 0.0, 1.0, 1.0))
         self.axes.set(xlim=(0, size[0]), ylim=(size[1], 0))
@@ -117,22 +119,36 @@ class Page:
     def word(self, across: float, down: float, text: str, **more: Any) -> None:
         self.axes.text(across, down, plain(text), **{"color": self.ink, "fontsize": self.font, "ha": "center", "va": "center", **more})
 
-    def add_bar(self, text: str | float, camera: Camera, scale: float, place: Doubles, size: Sequence[int], mirrored: bool) -> None:
+    def free_corner(self, shapes: Array, place: Sequence[int], width: float, height: float) -> Doubles:
+        """Returns the lower left of the box in the corner with the least particles. `shapes` has the coverage of a figure at `place`."""
+        size = np.array(shapes.shape[::-1])
+        margin = round(MARGIN * size.min())
+        rooms = np.array([(left, down) for down in (size[1] - margin, margin + height) for left in (margin, size[0] - margin - width)])
+        sums = [shapes[int(down - height):int(down), int(left):int(left + width)].sum() + self.taken.get((*place, k), 0.0)
+                for k, (left, down) in enumerate(rooms.clip(0.0))]
+        corner = int(np.argmin(sums))
+        self.taken[(*place, corner)] = math.inf
+        chosen: Doubles = place + rooms[corner]
+        return chosen
+
+    def add_bar(self, text: str | float, camera: Camera, scale: float, shapes: Array, place: Sequence[int]) -> None:
         assert camera.vertical_extent is not None
+        size = shapes.shape[::-1]
         length = bar_length(text) * scale * size[1] / camera.vertical_extent
         if not 0.0 < length <= size[0] * (1.0 - 2.0 * MARGIN):
             raise ValueError(f"scale_bar = {text!r}: is longer than the picture, of {size[0] / size[1] * camera.vertical_extent / scale:.3g}")
-        place = place + (mirrored * (size[0] - 2.0 * round(MARGIN * min(size)) - length), 0.0)
         thick = max(2, round(THICK * self.em))
-        self.axes.add_patch(matplotlib("patches").Rectangle(place - (0.0, thick), length, thick, color=self.ink, lw=0.0, snap=False))
+        corner = self.free_corner(shapes, place, length, 3.0 * self.em)
+        self.axes.add_patch(matplotlib("patches").Rectangle(corner - (0.0, thick), length, thick, color=self.ink, lw=0.0, snap=False))
         wide = length > 0.6 * len(str(text)) * self.em
-        self.word(place[0] + 0.5 * length * wide, place[1] - 1.6 * thick, str(text), va="bottom", ha="center" if wide else "left")
+        self.word(corner[0] + 0.5 * length * wide, corner[1] - 1.6 * thick, str(text), va="bottom", ha="center" if wide else "left")
 
-    def add_axes(self, camera: Camera, cell: Cell | None, place: Doubles) -> None:
+    def add_axes(self, camera: Camera, cell: Cell | None, shapes: Array, place: Sequence[int]) -> None:
         right, above, back = camera.axes()
         vectors = np.eye(3) if cell is None else cell.vectors
         ways = {k: vector / np.linalg.norm(vector) for k, vector in enumerate(vectors) if vector.any()}
-        middle = place + ARROW * self.em * np.array([1.0, -1.0])
+        side = 2.0 * ARROW * self.em
+        middle = self.free_corner(shapes, place, side, side) + 0.5 * side * np.array([1.0, -1.0])
         for k in sorted(ways, key=lambda k: float(ways[k] @ back)):
             way = np.array([ways[k] @ right, -(ways[k] @ above)])
             self.axes.annotate("", middle + ARROW * self.em * way, middle, arrowprops={

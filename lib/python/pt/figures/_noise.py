@@ -3,7 +3,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 import numpy.typing as npt
@@ -15,6 +15,7 @@ from pt._film import TILE_SIDE
 from pt._fit import Array, Doubles
 from pt._image import Image
 from pt._scene import Scene
+from pt.figures._compose import around
 
 MOST_NOISE: Final = 1.5  # steps of 1/255; by taste
 FIRST_SAMPLES: Final = 16  # fewest samples with a stated error
@@ -90,7 +91,7 @@ def _goals(squares: Doubles, covered: Array, counts: Doubles, noise: Noise) -> D
     """Returns each tile's samples after the next round. The least total reaches the noise with counts proportional to
     the root of the variance. Variances are means over neighbouring tiles, because a single one may be small by chance."""
     pixels = _by_tiles(covered | (squares > 0.0))
-    variances = _around(_by_tiles(squares) * counts) / np.maximum(_around(pixels), 1.0) * (pixels > 0.0)
+    variances = around(_by_tiles(squares) * counts, 3) / np.maximum(around(pixels, 3), 1.0) * (pixels > 0.0)
     weights = variances * _by_tiles(covered)
     needed = variances / np.square(np.where(weights > 0.0, WORST, FLOOR) * MOST_NOISE)
     if noise.high > MOST_NOISE:
@@ -110,11 +111,4 @@ def _goals(squares: Doubles, covered: Array, counts: Doubles, noise: Noise) -> D
 def _by_tiles(values: Array) -> Doubles:
     rows, columns = (range(0, side, TILE_SIDE) for side in values.shape)
     sums: Doubles = np.add.reduceat(np.add.reduceat(values, rows, axis=0, dtype=np.float64), columns, axis=1)
-    return sums
-
-
-def _around(values: Doubles) -> Doubles:
-    padded: Any = np.pad(values, 1)
-    height, width = values.shape
-    sums: Doubles = sum(padded[down:down + height, right:right + width] for down in range(3) for right in range(3))
     return sums

@@ -40,10 +40,12 @@ def _option(group: str, default: Any, metavar: str, words: str, **more: Any) -> 
     return field(default=default, metadata={"group": group, "metavar": metavar, "words": words, **more})
 
 
-def two(separator: str, kind: type) -> Callable[[str], Any]:
-    def read(text: str) -> tuple[Any, Any]:
-        first, second = map(kind, text.split(separator))
-        return first, second
+def several(count: int, separator: str, kind: type) -> Callable[[str], Any]:
+    def read(text: str) -> tuple[Any, ...]:
+        words = text.split(separator)
+        if len(words) != count:
+            raise ValueError(text)
+        return tuple(map(kind, words))
     return read
 
 
@@ -60,17 +62,12 @@ def _share(text: str) -> float:
     return float(text.removesuffix("%")) / (100.0 if text.endswith("%") else 1.0)
 
 
-def _three(text: str) -> tuple[int, int, int]:
-    first, second, third = map(int, text.split(","))
-    return first, second, third
-
-
 def _stops(text: str) -> float | None:
     return None if text == "auto" else float(text)
 
 
 def _pairs(text: str) -> list[tuple[int, int]]:
-    return [two("-", int)(pair) for pair in text.split(",")]
+    return [several(2, "-", int)(pair) for pair in text.split(",")]
 
 
 _data, _particles, _view, _look, _words, _samples, _python = (
@@ -93,7 +90,7 @@ class Options:
                                        "or, not, within and parentheses: \"resname XK2 or within 5 of (chain A and z > 3)\", "
                                        "\"not water\", \"resid 10-20\". Hidden particles count for ranges of colors and radii")
     repeat: tuple[int, int, int] | None = _data(
-        None, "A,B,C", "how often the cell is repeated along its edges", read=_three,
+        None, "A,B,C", "how often the cell is repeated along its edges", read=several(3, ",", int),
         rule=(lambda counts: min(counts) >= 1, "at least 1"))
     wrap: bool = _data(False, "", "moves particles outside a periodic cell back into the cell")
     whole: bool = _data(False, "", "makes molecules whole across a periodic cell, by their bonds")
@@ -108,7 +105,7 @@ class Options:
                                "Default: viridis, or coolwarm on a symmetric scale")
     range: tuple[float, float] | None = _particles(
         None, "LO,HI", "numbers with the first and the last color. Default: from the least to the largest number or, if this range is "
-        "more than 4 times as wide, from 1% to 99% of the numbers, with a note", flag="--color-range", read=two(",", float))
+        "more than 4 times as wide, from 1% to 99% of the numbers, with a note", flag="--color-range", read=several(2, ",", float))
     scale: str = _particles("linear", "", "scale of the colors; symmetric is centered at 0", flag="--color-scale",
                             choices=("linear", "log", "symmetric"))
     categories: bool | Sequence[str] = _particles(False, "", "treats numbers as names of categories with different colors. In "
@@ -145,7 +142,7 @@ class Options:
         rule=(lambda scale: 0.0 < scale < math.inf, "> 0 and finite"))
 
     size: tuple[int, int] | None = _view(None, "WxH", "pixels of the whole picture. Default: as many pixels as 1024x768, in the "
-                                         "shape of the data", read=two("x", int))
+                                         "shape of the data", read=several(2, "x", int))
     width: str | float | None = _view(None, "LENGTH", "width of the whole picture on paper, instead of a size: 8.5cm, 85mm or 3.35in (in "
                                       "Python also a number of inches). The height follows from the data")
     dpi: float | None = _view(None, "N", "pixels per inch, which .png and .jpg state. Default: 300 with a width", read=float,

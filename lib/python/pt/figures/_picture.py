@@ -100,12 +100,11 @@ class Picture:
         for figure, place, title in zip(self.figures, self._places, self.titles, strict=True):
             (rows, columns), drawn, camera = figure.shape[:2], figure._staged.drawn, figure.camera
             margin = round(MARGIN * min(rows, columns))
-            corner = np.add(place, (margin, rows - margin))
             page.add_marks(drawn.marks, figure._shares.seen, camera, np.array(place), (columns, rows), "w" if background is None else background)
             if options.scale_bar is not None:
-                page.add_bar(options.scale_bar, camera, drawn.scale, corner, (columns, rows), options.axes)
+                page.add_bar(options.scale_bar, camera, drawn.scale, figure._shares.shapes, place)
             if options.axes:
-                page.add_axes(camera, drawn.cell, corner)
+                page.add_axes(camera, drawn.cell, figure._shares.shapes, place)
             if title:
                 page.word(place[0] + 0.5 * columns, place[1] + margin, title, va="top")
         if legend is not None:

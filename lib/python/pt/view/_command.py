@@ -17,7 +17,7 @@ from pt._command_line import CODE_OF_RESULT, FILES, INTERNAL, SCENE, USAGE, at_l
 from pt._errors import Error
 from pt._text import tell
 from pt.figures._command import add_option, joined, typed
-from pt.figures._options import Options, two
+from pt.figures._options import Options, several
 from pt.view._trace import kernels
 
 EPILOG = """\
@@ -37,7 +37,7 @@ def parser() -> argparse.ArgumentParser:
         epilog=EPILOG, allow_abbrev=False, formatter_class=argparse.RawDescriptionHelpFormatter)
     add = command.add_argument
     add("what", metavar="SCENE|DATA|FILM|COURSE", help="a scene (.json), a film (.ptfilm), data for pt figure, or a folder of pt course")
-    add("--size", type=typed(two("x", int), "WxH"), metavar="WxH", help="pixels; by default the scene's")
+    add("--size", type=typed(several(2, "x", int), "WxH"), metavar="WxH", help="pixels; by default the scene's")
     add("--spp", type=at_least(1, int), default=65536, metavar="N", help="most samples of a pixel (default: 65536)")
     add("--device", metavar="NAME", help="device, as in pt render")
     add("--shader-dir", metavar="DIR", help="folder of kernels that replace the library's; the page edits them and the scene")

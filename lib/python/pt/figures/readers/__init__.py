@@ -25,7 +25,6 @@ from pt.figures.readers._psf import read_psf
 from pt.figures.readers._rows import is_number
 from pt.figures.readers._structures import read_pdb
 from pt.figures.readers._table import read_table
-from pt.figures.readers._xsf import read_xsf
 from pt.figures.readers._xyz import Xyz
 
 
@@ -40,7 +39,7 @@ def _molecules(format: str) -> Callable[[Lines], Frames]:
 FORMATS: Final[dict[str, Callable[[Lines], Frames]]] = {
     "lammps": LammpsDump, "xyz": Xyz, "gro": Gro, "pdb": read_pdb,
     "pdbqt": lambda lines: read_pdb(lines, True), "cif": read_cif,
-    **{format: _molecules(format) for format in MOLECULES}, "poscar": _one(read_poscar), "xsf": read_xsf,
+    **{format: _molecules(format) for format in MOLECULES}, "poscar": _one(read_poscar),
     "npy": read_npy, "npz": read_npz, "ply": _one(read_ply), "pcd": _one(read_pcd)}
 """Readers of lines or bytes, also for "table" and "lammps-data". Files may be packed, or standard input."""
 
@@ -56,7 +55,7 @@ _ENDINGS: Final = {".dump": "lammps", ".lammpstrj": "lammps", ".xyz": "xyz", ".e
                    ".pcd": "pcd", ".npy": "npy", ".npz": "npz", ".gro": "gro", ".pdb": "pdb",
                    ".ent": "pdb", ".pdbqt": "pdbqt", ".cif": "cif", ".mmcif": "cif", ".pdbx": "cif", ".sdf": "sdf",
                    ".sd": "sdf", ".mol": "sdf", ".mol2": "mol2", ".cml": "cml", ".poscar": "poscar", ".vasp": "poscar",
-                   ".xsf": "xsf", ".axsf": "xsf", ".gsd": "gsd", ".xtc": "xtc", ".trr": "trr", ".dcd": "dcd", ".tng": "tng",
+                   ".xsf": "ase", ".axsf": "ase", ".gsd": "gsd", ".xtc": "xtc", ".trr": "trr", ".dcd": "dcd", ".tng": "tng",
                    ".nc": "netcdf", ".ncdf": "netcdf", ".psf": "psf",
                    **dict.fromkeys((".csv", ".tsv", ".txt", ".dat", ".asc", ".pts", ".xyzrgb", ".3d"), "table"),
                    **dict.fromkeys((".vtk", ".vtp", ".vtu", ".vti", ".vts", ".vtr", ".vtm", ".pvd"), "pyvista"),
