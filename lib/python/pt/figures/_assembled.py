@@ -1,19 +1,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
-from pt._fit import chunks
+from pt._fit import Array, chunks
 from pt.figures._cell import Cell
 from pt.figures._columns import ELEMENTS, TYPES, column_name, coordinate_names, first_of, plain_name, split_columns
 from pt.figures._elements import elements_of, listed
 from pt.figures._errors import DataError
 from pt.figures._particles import Particles, Table
-
-Array = npt.NDArray[Any]
 
 NEGLIGIBLE: Final = 1e-12
 _COLORS: Final = (("red", "green", "blue", "alpha"), ("r", "g", "b", "a"),

@@ -2,15 +2,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 import numpy.typing as npt
 
+from pt._fit import Array
 from pt.figures._elements import listed
 from pt.figures._errors import DataError
-
-Array = npt.NDArray[Any]
 
 # Names of columns of positions, best first: a letter before or after a stem, or a stem with a number.
 _STEMS: Final = ("", "pos", "position", "positions", "point", "points", "coord", "coords", "coordinate", "coordinates",

@@ -49,7 +49,7 @@ def smoothed(shadow: Array, error: Array, floor: Array) -> Array:
 
 
 def around(values: Array, side: int) -> Doubles:
-    """Returns sums over windows of side x side pixels."""
+    """Sums of windows."""
     padded: Any = np.pad(values.astype(np.float64), [(side // 2, side // 2)] * 2 + [(0, 0)] * (values.ndim - 2))
     height, width = values.shape[:2]
     rows: Any = sum(padded[down:down + height] for down in range(side))

@@ -120,7 +120,7 @@ class Page:
         self.axes.text(across, down, plain(text), **{"color": self.ink, "fontsize": self.font, "ha": "center", "va": "center", **more})
 
     def free_corner(self, shapes: Array, place: Sequence[int], width: float, height: float) -> Doubles:
-        """Returns the lower left of the box in the corner with the least particles. `shapes` has the coverage of a figure at `place`."""
+        """Returns the box's lower left in the emptiest corner of the figure at `place`."""
         size = np.array(shapes.shape[::-1])
         margin = round(MARGIN * size.min())
         rooms = np.array([(left, down) for down in (size[1] - margin, margin + height) for left in (margin, size[0] - margin - width)])

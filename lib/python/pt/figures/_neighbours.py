@@ -1,14 +1,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any, Final, NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
+from pt._fit import Array
 from pt.figures._cell import Cell
-
-Array = npt.NDArray[Any]
 
 MOST_COMPARED: Final = 400_000_000  # pairs
 MOST_FOUND: Final = 20_000_000

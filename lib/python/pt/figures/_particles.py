@@ -8,12 +8,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from pt._fit import chunks
+from pt._fit import Array, chunks
 from pt.figures._cell import Cell
 from pt.figures._columns import column_name
 from pt.figures._errors import DataError
-
-Array = npt.NDArray[Any]
 
 
 @dataclass(frozen=True)

@@ -2,14 +2,12 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
+from pt._fit import Array
 from pt.figures._elements import NUMBERS, SYMBOLS, listed
-
-Array = npt.NDArray[Any]
 
 VIRTUAL: Final = 255
 

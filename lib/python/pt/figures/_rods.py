@@ -14,11 +14,11 @@ from pt.figures._particles import Particles
 from pt.figures._select import column
 
 LONGEST: Final = 9.0  # length of the longest vector in median particle radii; by taste
-WIDTH: Final = 0.3  # largest radius of a shaft in median particle radii; by taste, like the next four values
-HEAD: Final = 2.5  # largest length of a head in median particle radii
+WIDTH: Final = 0.3  # largest radius of a shaft, in median radii; by taste, like the next four
+HEAD: Final = 2.5  # largest length, in median radii
 MOST_HEAD: Final = 0.4  # relative to the arrow
-SLOPE: Final = 0.35  # radius of a head's base, relative to its length
-SHAFT: Final = 0.4  # largest radius of a shaft, relative to its head's base
+SLOPE: Final = 0.35  # radius of the head's base, relative to its length
+SHAFT: Final = 0.4  # relative to the head's base
 PIECES: Final = 8  # capsules of a head
 
 
@@ -72,7 +72,7 @@ def vectors_of(particles: Particles, given: Vectors, scale: float | None, radii:
 
 
 def _arrows(atoms: Array, ways: Doubles, unit: float) -> Rods:
-    """Shafts, then heads: cones made of capsules whose radii fall to the tip."""
+    """Heads are cones of ever thinner capsules."""
     lengths = np.linalg.norm(ways, axis=1)
     heads = np.minimum(HEAD * unit, MOST_HEAD * lengths)
     left = np.arange(PIECES, -1.0, -1.0)[:, None] / PIECES

@@ -1,15 +1,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
+from pt._fit import Array
 from pt.figures._particles import Particles
 from pt.figures._residues import WATERS, is_free_ion, is_polymer
-
-Array = npt.NDArray[Any]
 
 # Pairs of heavy atoms within a residue.
 _WITHIN: Final = (

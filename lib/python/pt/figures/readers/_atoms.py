@@ -1,16 +1,14 @@
 from __future__ import annotations
 
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
+from pt._fit import Array
 from pt.figures._cell import Cell
 from pt.figures._elements import SYMBOLS
 from pt.figures._particles import Bonds, Table
 from pt.figures._residues import VIRTUAL, are_beads, elements_by_residue
-
-Array = npt.NDArray[Any]
 
 NO_ELEMENT: Final = 0
 

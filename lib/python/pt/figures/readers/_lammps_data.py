@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
+from pt._fit import Array
 from pt.figures._cell import Cell
 from pt.figures._elements import SYMBOLS, elements_of_masses, listed
 from pt.figures._errors import DataError
@@ -15,8 +15,6 @@ from pt.figures._particles import Bonds, Table
 from pt.figures.readers._atoms import atoms_table
 from pt.figures.readers._lines import Lines
 from pt.figures.readers._rows import Layout, Rows, are_numbers, is_number, number, shown
-
-Array = npt.NDArray[Any]
 
 CONTENT: Final = re.compile(rb"(?m)^\s*\d+\s+atoms\s*(?:#.*)?$")
 STYLES: Final = {style: columns.split() for style, columns in {

@@ -9,15 +9,13 @@ from types import SimpleNamespace
 from typing import Any, Final, cast
 
 import numpy as np
-import numpy.typing as npt
 
+from pt._fit import Array
 from pt.figures._cell import Cell
 from pt.figures._errors import DataError
 from pt.figures._particles import Table
 from pt.figures.readers._frames import Frames, Listed
 from pt.figures.readers._lines import Lines
-
-Array = npt.NDArray[Any]
 
 _CELLS: Final = ("cell", "box", "lattice")
 

@@ -5,14 +5,12 @@ from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
-import numpy.typing as npt
 
+from pt._fit import Array
 from pt.figures._errors import DataError
 from pt.figures._particles import Table
 from pt.figures.readers._lines import Lines
 from pt.figures.readers._rows import Layout, Rows, shown
-
-Array = npt.NDArray[Any]
 
 _TYPES: Final = {"char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4", "float": "f4",
                  "double": "f8", "int8": "i1", "uint8": "u1", "int16": "i2", "uint16": "u2", "int32": "i4",

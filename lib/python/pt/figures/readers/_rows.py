@@ -7,16 +7,14 @@ import io
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
+from pt._fit import Array
 from pt.figures._errors import DataError, module
 from pt.figures._columns import LABELS
 from pt.figures.readers._lines import Lines
-
-Array = npt.NDArray[Any]
 
 _TABLE: Final = ""  # key of positions stored as one table of three columns
 FEW_BYTES: Final = 1 << 16

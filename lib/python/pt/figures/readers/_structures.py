@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterator
 from typing import Any, Final
 
 import numpy as np
-import numpy.typing as npt
 
+from pt._fit import Array
 from pt.figures._cell import Cell
 from pt.figures._elements import SYMBOLS
 from pt.figures._errors import DataError, module
@@ -18,8 +18,6 @@ from pt.figures.readers._atoms import atoms_table
 from pt.figures.readers._frames import Listed
 from pt.figures.readers._lines import Lines
 from pt.figures.readers._other import tried
-
-Array = npt.NDArray[Any]
 
 _ATOMS: Final = frozenset((b"ATOM  ", b"HETATM"))
 _OTHERS: Final = frozenset((b"HEADER", b"EXPDTA", b"SSBOND", b"LINK  ", b"CONECT"))
