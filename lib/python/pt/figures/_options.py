@@ -119,8 +119,8 @@ class Options:
         "neighbours that are not bonded; else half of the usual distance of neighbours")
 
     opacity: Opacity = _particles(
-        None, "A|COLUMN", "probability from 0 to 1 that a ray hits a particle, its bonds and its vector: a number, a column, or numbers "
-        "for selections, \"chain A=0.3\"; in Python also an array. Default: 1")
+        None, "A|COLUMN", "probability from 0 to 1 that a ray hits a particle, its bonds and its vector, so n overlapping particles transmit "
+        "(1 - A)^n: a number, a column, or numbers for selections, \"chain A=0.3\"; in Python also an array. Default: 1")
     bonds: Bonds = _particles(
         None, "auto|CUTOFF", "auto (in Python also True) bonds atoms whose distance is at most the sum of their covalent radii "
         "(Cordero 2008) and 0.45 angstroms, as in Open Babel; a number bonds all within this distance. In Python also pairs of "
