@@ -45,7 +45,7 @@ std::vector<Met> follow(const Ball &ball, const std::vector<Ray> &rays, Held hel
     scene.spheres = {{ball.center, ball.radius, {held == Held::ByItsCenter ? ball.radius : 0.0, 0, 0}, 0}};
     const pt::Camera camera{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, 0.0, 1.0};
     const pt::PreparedScene prepared(scene);
-    const pt::View view = pt::view_of({pt::seen_scene(scene, camera), false, false}, prepared, camera,
+    const pt::View view = pt::view_of(pt::seen_scene(scene, camera), prepared, camera,
                                       {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4});
     const auto count = static_cast<std::uint32_t>(rays.size());
     auto constants = pt::specialization_constants(view.features);
