@@ -122,7 +122,7 @@ std::vector<Component> pixels_of(pt_display_info display) {
     return pixels;
 }
 
-const auto bytes_of = &pixels_of<std::uint8_t>;
+const auto read_bytes = &pixels_of<std::uint8_t>;
 using Components = std::vector<std::uint8_t>;
 
 TEST(Display, ExposureIsInStops) {
@@ -130,9 +130,9 @@ TEST(Display, ExposureIsInStops) {
     pt_display_info display = display_of(color);
     display.gamma = 1.0;
     display.exposure = 2.0;
-    EXPECT_EQ(bytes_of(display), (Components{128, 255, 0}));
+    EXPECT_EQ(read_bytes(display), (Components{128, 255, 0}));
     display.exposure = -1.0;
-    EXPECT_EQ(bytes_of(display), (Components{16, 32, 0})); // 15.94 and 31.88
+    EXPECT_EQ(read_bytes(display), (Components{16, 32, 0})); // 15.94 and 31.88
 }
 
 // Pixels from 2^-16 to 2^4, and black.
@@ -192,10 +192,10 @@ TEST(Display, PartsGiveTheBytesOfTheWhole) {
     Components parts;
     for (std::size_t i = 0; i < radiance.size(); i += 75) {
         const std::vector<float> part(&radiance[i], &radiance[i] + 75);
-        const Components bytes = bytes_of(display_of(part, PT_CURVE_AGX));
+        const Components bytes = read_bytes(display_of(part, PT_CURVE_AGX));
         parts.insert(parts.end(), bytes.begin(), bytes.end());
     }
-    EXPECT_EQ(bytes_of(display), parts);
+    EXPECT_EQ(read_bytes(display), parts);
 }
 
 TEST(Display, AlphaDividesTheRadianceAndIsNotEncoded) {
@@ -204,8 +204,8 @@ TEST(Display, AlphaDividesTheRadianceAndIsNotEncoded) {
     const std::vector<float> alpha{0.25F, 1.0F, 0.0F};
     pt_display_info display = display_of(radiance);
     display.alpha = alpha.data();
-    const Components color = bytes_of(display_of(opaque));
-    EXPECT_EQ(bytes_of(display),
+    const Components color = read_bytes(display_of(opaque));
+    EXPECT_EQ(read_bytes(display),
               (Components{color[0], color[1], color[2], 64, color[3], color[4], color[5], 255, 0, 0, 0, 0}));
     EXPECT_EQ(pixels_of<std::uint16_t>(display)[3], 16384); // 65535 / 4 = 16383.75
     const std::vector<float> largest(3, std::numeric_limits<float>::max());
@@ -213,7 +213,7 @@ TEST(Display, AlphaDividesTheRadianceAndIsNotEncoded) {
     for (const std::uint32_t curve : all_curves) {
         display = display_of(largest, curve);
         display.alpha = faint.data();
-        EXPECT_GT(bytes_of(display)[0], 150) << curve;
+        EXPECT_GT(read_bytes(display)[0], 150) << curve;
     }
 }
 
@@ -225,7 +225,7 @@ TEST(Display, WhiteLightBecomesGreyOfItsLuminance) {
     display.gamma = 1.0;
     constexpr double luminance = 0.2126 + 0.7152 * 0.5 + 0.0722 * 0.25;
     const auto grey = static_cast<std::uint8_t>(std::lround(255.0 * luminance));
-    EXPECT_EQ(bytes_of(display), (Components{grey, grey, grey}));
+    EXPECT_EQ(read_bytes(display), (Components{grey, grey, grey}));
     const std::vector<float> many = random_radiance(1'000);
     pt_display_info neutral = display_of(many, PT_CURVE_AGX);
     const auto without = pixels_of<std::uint16_t>(neutral);
@@ -345,12 +345,12 @@ TEST(Exposure, BlackPixelsDoNotCount) {
 TEST(Exposure, OfADisplayIsThatOfItsPixels) {
     const std::vector<float> radiance = random_radiance(500);
     pt_display_info display = display_of(radiance);
-    const Components without = bytes_of(display);
+    const Components without = read_bytes(display);
     display.exposure = automatic_exposure(radiance);
-    const Components expected = bytes_of(display);
+    const Components expected = read_bytes(display);
     display.exposure = 0.0;
     display.automatic_exposure = 1;
-    EXPECT_EQ(bytes_of(display), expected);
+    EXPECT_EQ(read_bytes(display), expected);
     EXPECT_NE(expected, without); // Negative control.
 }
 

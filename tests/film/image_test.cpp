@@ -10,24 +10,24 @@
 
 namespace {
 
-constexpr std::uint32_t width = 5;
-constexpr std::uint32_t height = 3;
+constexpr std::uint32_t target_width = 5;
+constexpr std::uint32_t target_height = 3;
 
 alignas(16) float memory[256];
 
 pt_image valid_image() {
     pt_image image = image_target(memory);
-    image.size_bytes = height * width * 12;
+    image.size_bytes = target_height * target_width * 12;
     return image;
 }
 
 std::string image_outcome(const pt_image &image) {
     return outcome_of(PT_ERROR_INVALID_ARGUMENT,
-                      [&] { pt::validated_image(image, width, height, pt::ImageSource::Context); });
+                      [&] { pt::validated_image(image, target_width, target_height, pt::ImageSource::Context); });
 }
 
 pt::ImageLayout layout_of(const pt_image &image) {
-    return pt::validated_image(image, width, height, pt::ImageSource::Context).layout;
+    return pt::validated_image(image, target_width, target_height, pt::ImageSource::Context).layout;
 }
 
 pt_image part(std::uint32_t x, std::uint32_t y, std::uint32_t part_width, std::uint32_t part_height) {
@@ -107,7 +107,7 @@ pt_buffer_image valid_buffer() {
 }
 
 std::string buffer_outcome(const pt_buffer_image &image) {
-    return outcome_of(PT_ERROR_INVALID_ARGUMENT, [&] { pt::validated_image(image, width, height); });
+    return outcome_of(PT_ERROR_INVALID_ARGUMENT, [&] { pt::validated_image(image, target_width, target_height); });
 }
 
 TEST(BufferImage, BrokenRulesAreNamed) {

@@ -25,7 +25,7 @@ struct DrawnSpot {
 
 constexpr std::uint32_t first_lamp = 0;
 constexpr std::uint32_t second_lamp = 1;
-constexpr std::uint32_t ball = 2;
+constexpr std::uint32_t sphere = 2;
 constexpr std::uint32_t floor_plane = 3;
 constexpr std::uint32_t surface_count = 4;
 const std::array<glm::vec4, surface_count> shapes = {glm::vec4(1.0F, 0.6F, -3.0F, 0.2F),
@@ -121,17 +121,17 @@ INSTANTIATE_TEST_SUITE_P(
         SpotCase{"Glow", {{first_lamp, floor_plane, glow}}, floor_plane, 0.1},
         SpotCase{"TwoGlows", {{first_lamp, floor_plane, glow}, {second_lamp, floor_plane, glow}}, floor_plane, 0.1},
         SpotCase{"ImageInPlane", {{first_lamp, floor_plane, 200}}, floor_plane, 0.05},
-        SpotCase{"ImageInSphere", {{second_lamp, ball, 200}}, ball, 0.008},
-        SpotCase{"TwoImagesInSphere", {{first_lamp, ball, 50}, {second_lamp, ball, 50}}, ball, 0.015},
+        SpotCase{"ImageInSphere", {{second_lamp, sphere, 200}}, sphere, 0.008},
+        SpotCase{"TwoImagesInSphere", {{first_lamp, sphere, 50}, {second_lamp, sphere, 50}}, sphere, 0.015},
         SpotCase{"GlowAndImage", {{first_lamp, floor_plane, glow}, {first_lamp, floor_plane, 100}}, floor_plane, 0.05},
         SpotCase{"OneOfMany",
                  {{first_lamp, floor_plane, glow},
-                  {second_lamp, ball, 100},
-                  {first_lamp, ball, 100},
+                  {second_lamp, sphere, 100},
+                  {first_lamp, sphere, 100},
                   {second_lamp, floor_plane, 300}},
                  floor_plane,
                  0.05},
-        SpotCase{"Sharp", {{second_lamp, ball, 1e5F}}, ball, 0.002}),
+        SpotCase{"Sharp", {{second_lamp, sphere, 1e5F}}, sphere, 0.002}),
     [](const auto &param) { return param.param.name; });
 
 } // namespace
