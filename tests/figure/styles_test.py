@@ -72,8 +72,9 @@ class Crystals(unittest.TestCase):
         places = np.array(list(np.ndindex(3, 3, 3))) * 2.82
         np.testing.assert_allclose(sorted(full.positions.tolist()), sorted(places.tolist()), atol=1e-9)
         self.assertEqual(np.bincount(full.elements)[[11, 17]].tolist(), [14, 13])
-        drawn = prepare(salt(), styled(salt(), Options(), []))
-        self.assertEqual((len(drawn.centers), len(drawn.rods[0].atoms)), (27, 108))
+        for style in ("auto", "cover"):
+            drawn = prepare(salt(), styled(salt(), Options(style=style), []))
+            self.assertEqual((len(drawn.centers), len(drawn.rods[0].atoms)), (27, 108))
         away = Particles(SALT + 0.7, elements=np.full(8, 6, np.uint8), cell=Cell.of((5.64, 5.64, 5.64)))
         self.assertIs(completed(away, Options()), away)
         self.assertEqual(len(prepare(salt(), Options(style="crystal", color=np.arange(8.0), radius=1.0)).centers), 8)

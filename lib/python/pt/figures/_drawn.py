@@ -20,7 +20,7 @@ from pt.figures._particles import Particles
 from pt.figures._radii import opacities_of, radii_of
 from pt.figures._rods import Rods, cell_corners, vectors_of
 from pt.figures._select import chosen
-from pt.figures._styles import completed, groups_of, repeated
+from pt.figures._styles import completed, groups_of, has_corners, repeated
 from pt.figures._tubes import trace_of, tubes_of
 
 LEAST_LENGTH: Final = 1e-18
@@ -84,9 +84,10 @@ def prepare(particles: Particles, options: Options, scale: float | None = None) 
         particles = particles.wrapped()
     if options.whole:
         particles = whole(particles, options)
+    corners = has_corners(particles, options)
     if options.repeat is not None:
         particles = repeated(particles, options.repeat, options)
-    if options.style == "crystal":
+    if corners:
         particles = completed(particles, options)
     radii = radii_of(particles, options.radius, notes)
     colors, legend = colors_of(particles, options, notes)

@@ -83,6 +83,10 @@ def kind_of(particles: Particles, options: Options) -> str:
     return "particles"
 
 
+def has_corners(particles: Particles, options: Options) -> bool:
+    return options.style == "crystal" or options.style in LOOKS and kind_of(particles, options) == "crystal"
+
+
 def completed(particles: Particles, options: Options) -> Particles:
     """Adds atoms at opposite walls, so that a crystal's cell has all corners. The copies are bonded by distance."""
     cell = particles.cell
