@@ -15,12 +15,11 @@ struct OptionName {
     const char *option;
 };
 
-constexpr std::array<OptionName, 10> option_names{{
+constexpr std::array<OptionName, 9> option_names{{
     {"render", "width", "--size: width"},
     {"render", "height", "--size: height"},
     {"render", "max_path_length", "--max-path-length"},
     {"accumulate", "sample_count", "--spp"},
-    {"accumulate", "target_error", "--error"},
     {"accumulate", "sampling", "--sampling"},
     {"create", "device", "--device"},
     {"create", "shader_dir", "--shader-dir"},

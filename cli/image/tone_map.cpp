@@ -10,22 +10,10 @@
 namespace cli {
 namespace {
 
-using Numbers = double[3];
-
-bool is_set(double number) {
-    return number != 0.0;
-}
-
-bool is_set(const Numbers &numbers) {
-    return numbers[0] != 0.0;
-}
-
-double in_file(double number) {
-    return number;
-}
-
-std::string in_file(const Numbers &numbers) {
-    return formatted("%.9g, %.9g, %.9g", numbers[0], numbers[1], numbers[2]);
+nlohmann::ordered_json in_json(std::span<const double> numbers) {
+    if (numbers[0] == 0.0)
+        return nullptr;
+    return numbers.size() == 1 ? nlohmann::ordered_json(numbers[0]) : nlohmann::ordered_json(numbers);
 }
 
 } // namespace
@@ -67,21 +55,23 @@ nlohmann::ordered_json tone_map_json(const std::optional<ToneMap> &tone_map) {
     const pt_display_info &display = tone_map->display;
     nlohmann::ordered_json json{{"curve", pt::curves.name(display.curve)},
                                 {"automatic_exposure", tone_map->is_automatic}};
-    pt::show_numbers(display, [&](const std::string &name, const auto &value) {
-        json[name] = is_set(value) ? nlohmann::ordered_json(value) : nullptr;
-    });
+    for (const auto &[name, numbers] : pt::numbers_of(display))
+        json[std::string(name)] = in_json(numbers);
     json["exposure"] = display.exposure;
     return json;
 }
 
 void add_tone_map(std::vector<ImageAttribute> &attributes, const ToneMap &tone_map) {
     attributes.push_back({"pt.toneMap", std::string(pt::curves.name(tone_map.display.curve))});
-    pt::show_numbers(tone_map.display, [&](const std::string &name, const auto &value) {
-        if (is_set(value) || name == "exposure")
-            attributes.push_back({"pt." + name, in_file(value)});
+    for (const auto &[name, numbers] : pt::numbers_of(tone_map.display)) {
+        if (numbers.size() == 1 && (numbers[0] != 0.0 || name == "exposure"))
+            attributes.push_back({concat("pt.", name), numbers[0]});
+        else if (numbers[0] != 0.0)
+            attributes.push_back(
+                {concat("pt.", name), formatted("%.9g, %.9g, %.9g", numbers[0], numbers[1], numbers[2])});
         else if (name == "gamma")
             attributes.push_back({"pt.encoding", "sRGB"});
-    });
+    }
 }
 
 std::string automatic_exposure_line(const std::optional<ToneMap> &tone_map) {

@@ -68,7 +68,7 @@ std::string samples_text(const pt_stats &stats) {
 std::string target_text(const RenderReport &report) {
     const std::string count = samples_text(report.stats);
     const std::string samples = count + (count == "1" ? " sample" : " samples");
-    if (report.target_reached())
+    if (report.target_reached)
         return "target reached after " + samples;
     const std::string high = std::isfinite(report.error.relative_rmse_high)
                                  ? percent_text(report.error.relative_rmse_high) + " is above "
@@ -129,7 +129,7 @@ nlohmann::ordered_json stats_json(const RenderReport &report) {
     stats.update(error_json(report.error));
     stats.update(nlohmann::ordered_json{
         {"target_error", report.target_error > 0.0 ? nlohmann::ordered_json(report.target_error) : nullptr},
-        {"target_reached", report.target_reached()},
+        {"target_reached", report.target_reached},
         {"ended_by", report.ended_by},
         {"seconds",
          {{"create", report.create_seconds},

@@ -23,6 +23,7 @@ struct RenderReport {
     ImageWindow window;
     std::uint32_t requested_sample_count; // the maximum, if there is a target error
     double target_error;                  // 0 for none
+    bool target_reached;
     pt_stats stats;
     pt_error_estimate error;
     pt_device_info device;
@@ -33,8 +34,6 @@ struct RenderReport {
     std::optional<ToneMap> tone_map;
     std::string ended_by; // "samples", "error", "signal", or StoppingTest's result
     std::vector<std::string> warnings;
-
-    bool target_reached() const { return target_error > 0.0 && error.relative_rmse_high <= target_error; }
 };
 
 // A film has no times and no scene name.

@@ -104,8 +104,8 @@ ImageRender::ImageRender(const Context &context, const RenderTask &task, std::ui
     constexpr double usual_checkpoint_seconds = 30.0;
     const RenderOptions &options = task.options;
     progress_.begin_at(context.stats().sample_count);
-    if (options.stopping.time_limit)
-        progress_.limit_time(*options.stopping.time_limit);
+    if (options.stopping.time_limit > 0.0)
+        progress_.limit_time(options.stopping.time_limit);
     if (!options.checkpoint.empty())
         checkpoint_.emplace(context, options.checkpoint, options.checkpoint_seconds.value_or(usual_checkpoint_seconds),
                             [this](const std::string &message) { progress_.say(message); });
@@ -186,7 +186,7 @@ pt_result ImageRender::take(std::uint32_t length, double done) {
     };
     auto info = sized<pt_accumulate_info>();
     info.sample_count = length;
-    info.target_error = stopping_.rules().target_error;
+    info.stopping = stopping_.rules_of_step();
     info.sample_limit = has_target() ? round_.end : 0;
     info.sampling = task_.options.sampling;
     info.progress = &call_listener;
@@ -218,8 +218,7 @@ pt_stats ImageRender::look(pt_result result) {
         preview(now);
     if (checkpoint_)
         checkpoint_->step(sample_count);
-    if (!ended && sample_count > 0)
-        stopping_.look(now);
+    stopping_.look(result);
     return done;
 }
 
@@ -257,7 +256,7 @@ void ImageRender::preview(Clock::time_point now) {
 }
 
 bool ImageRender::pauses() const {
-    return wants_preview() || (checkpoint_ && checkpoint_->is_due()) || stopping_.is_due();
+    return wants_preview() || (checkpoint_ && checkpoint_->is_due());
 }
 
 } // namespace cli

@@ -27,8 +27,8 @@ CLI::Option *add_parsed(CLI::App &command, const std::string &name, Target &targ
     return command.add_option_function<std::string>(name, read, help);
 }
 
-CLI::Option *add_seconds(CLI::App &command, const std::string &name, std::optional<double> &target,
-                         const std::string &help) {
+template <typename Target>
+CLI::Option *add_seconds(CLI::App &command, const std::string &name, Target &target, const std::string &help) {
     return add_number<double>(command, name, seconds_rule, target, help)->type_name("S");
 }
 

@@ -66,16 +66,16 @@ void resume_if_asked(const Context &context, const RenderTask &task) {
 
 // The target error may be reached although another rule ended the rendering.
 std::string ending_of(const RenderReport &report, const ImageRender::Result &rendered, bool interrupted) {
-    return interrupted ? "signal" : rendered.ended_by.value_or(report.target_reached() ? "error" : "samples");
+    return interrupted ? "signal" : rendered.ended_by.value_or(report.target_reached ? "error" : "samples");
 }
 
 // A file that was not written decides first. A run that ended early can be resumed from its checkpoint.
-ExitCode outcome_of(const RenderReport &report, const ImageRender::Result &rendered, bool all_written) {
+ExitCode outcome_of(const StoppingRules &rules, const ImageRender::Result &rendered, bool all_written) {
     if (!all_written)
         return ExitCode::file;
     if (rendered.ended_by && rendered.has_checkpoint)
         return ExitCode::resumable;
-    return report.target_error > 0.0 && !report.target_reached() ? ExitCode::target_missed : ExitCode::done;
+    return rules.has_target() && !rules.is_reached(rendered.image.error) ? ExitCode::target_missed : ExitCode::done;
 }
 
 void print_pieces(const Context &context, const RenderTask &task, std::uint32_t rows) {
@@ -146,15 +146,14 @@ ImageRender::Result render_halves(const RenderTask &task, ImageRender &render, c
     };
     auto rounds = sized<pt_rounds_info>();
     rounds.sample_count = task.sample_count;
-    rounds.target_error = rules.target_error;
-    rounds.time_limit = rules.time_limit.value_or(0.0);
+    rounds.stopping = rules;
     auto [image, ended] = denoised_rounds(task.options.denoiser, task.window.part, rounds, add_round);
     std::erase_if(image.layers, [&](const PictureLayer &each) {
         return std::ranges::count(task.options.output.layers, each.quantity) == 0;
     });
     ImageRender::Result result{};
     result.image = std::move(image);
-    if (ended == PT_OK && done < task.sample_count)
+    if (ended == PT_LIMIT_REACHED)
         result.ended_by = ended_by_time;
     return result;
 }
@@ -229,6 +228,7 @@ ExitCode render_picture(const Context &context, const RenderTask &task, const Re
 
     report.stats = image.stats;
     report.error = image.error;
+    report.target_reached = options.stopping.is_reached(image.error);
     const bool interrupted = interrupt_signal() != 0 && !superseded();
     report.ended_by = ending_of(report, rendered, interrupted);
     const std::string checkpoint = rendered.has_checkpoint ? options.checkpoint : "";
@@ -244,7 +244,7 @@ ExitCode render_picture(const Context &context, const RenderTask &task, const Re
     const bool all_written = write_outputs(writer, context, task, report, image, times.start);
     if (interrupted && all_written)
         return ExitCode::signal;
-    return outcome_of(report, rendered, all_written);
+    return outcome_of(options.stopping, rendered, all_written);
 }
 
 } // namespace cli

@@ -12,12 +12,15 @@
 
 namespace cli {
 
-struct StoppingRules {
-    double target_error = 0.0;        // 0 for none; the library tests it
-    std::optional<double> time_limit; // seconds per frame
+struct StoppingRules : pt_stopping {
+    StoppingRules() : pt_stopping{} {}
 
     bool has_target() const { return target_error > 0.0; }
-    bool has_any() const { return has_target() || time_limit; }
+    bool has_any() const { return has_target() || time_limit > 0.0; }
+
+    bool is_reached(const pt_error_estimate &error) const {
+        return has_target() && error.relative_rmse_high <= target_error;
+    }
 
     std::uint32_t usual_samples() const { return has_any() ? 65536 : 64; }
 };
@@ -35,6 +38,7 @@ inline std::uint32_t forecast_sample_count(std::uint32_t sample_count, double er
     return static_cast<std::uint32_t>(std::min(std::max(std::ceil(guess), least), static_cast<double>(most)));
 }
 
+// Divides the time of a rendering among the pieces of its image.
 class StoppingTest {
 public:
     using Clock = std::chrono::steady_clock;
@@ -45,17 +49,21 @@ public:
 
     // `end` is the finished fraction of the image after the piece. A piece may use the time that earlier ones saved.
     void enter_piece(double end) {
-        if (rules_.time_limit)
-            end_ = start_ +
-                   std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(*rules_.time_limit * end));
+        end_ = end;
         is_over_ = false;
     }
 
-    // Whether the step should end at its next complete sample.
-    bool is_due() const { return Clock::now() >= end_; }
+    pt_stopping rules_of_step() const {
+        constexpr double least = 1e-9; // a late piece gets one sample
+        const std::chrono::duration<double> passed = Clock::now() - start_;
+        pt_stopping rules = rules_;
+        if (rules.time_limit > 0.0)
+            rules.time_limit = std::max(rules.time_limit * end_ - passed.count(), least);
+        return rules;
+    }
 
-    void look(Clock::time_point now) {
-        is_over_ = now >= end_;
+    void look(pt_result result) {
+        is_over_ = result == PT_LIMIT_REACHED;
         if (is_over_)
             ended_by_ = ended_by_time;
     }
@@ -67,7 +75,7 @@ public:
 private:
     StoppingRules rules_;
     Clock::time_point start_;
-    Clock::time_point end_ = Clock::time_point::max();
+    double end_ = 1.0;
     bool is_over_ = false;
     std::optional<std::string> ended_by_;
 };

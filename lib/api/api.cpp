@@ -5,6 +5,7 @@
 #include "lib/base/struct_size.h"
 #include "lib/film/error_estimate.h"
 #include "lib/film/film_bytes.h"
+#include "lib/film/stopping.h"
 #include "lib/kernel/accuracy.h"
 #include "lib/render/image.h"
 #include "lib/render/renderer.h"
@@ -72,19 +73,21 @@ pt_accumulate_info validated_accumulate(const pt_accumulate_info *info, bool may
     const pt_accumulate_info accumulate = copy_in(info, "accumulate");
     Violations violations;
     const Subject subject(violations, "accumulate");
-    subject.require(accumulate.sample_count >= 1 || accumulate.target_error > 0.0, "sample_count",
-                    accumulate.sample_count, "must be >= 1 without a target_error");
-    subject.check("target_error", accumulate.target_error, not_negative_rule);
+    const Stopping stopping{accumulate.stopping};
+    const bool has_target = stopping.has_target();
+    subject.require(accumulate.sample_count >= 1 || has_target, "sample_count", accumulate.sample_count,
+                    "must be >= 1 without a target_error");
+    stopping.check(violations);
     subject.require(accumulate.sampling <= PT_SAMPLING_ADAPTIVE, "sampling", accumulate.sampling,
                     "must be a PT_SAMPLING_* of pt.h");
-    subject.require(accumulate.sampling != PT_SAMPLING_ADAPTIVE || accumulate.target_error > 0.0, "sampling",
-                    accumulate.sampling, "must not be PT_SAMPLING_ADAPTIVE without a target_error");
-    subject.require(accumulate.sample_limit == 0 || accumulate.target_error > 0.0, "sample_limit",
-                    accumulate.sample_limit, "must be 0 without a target_error");
+    subject.require(accumulate.sampling != PT_SAMPLING_ADAPTIVE || has_target, "sampling", accumulate.sampling,
+                    "must not be PT_SAMPLING_ADAPTIVE without a target_error");
+    subject.require(accumulate.sample_limit == 0 || has_target, "sample_limit", accumulate.sample_limit,
+                    "must be 0 without a target_error");
     subject.require(accumulate.reserved2 == 0, "reserved2", accumulate.reserved2, "must be 0");
     subject.require((accumulate.tile_samples == nullptr) == (accumulate.tile_count == 0), "tile_count",
                     accumulate.tile_count, "must be 0 if and only if tile_samples is NULL");
-    subject.require(!accumulate.tile_samples || accumulate.target_error == 0.0, "target_error", accumulate.target_error,
+    subject.require(!accumulate.tile_samples || !has_target, "stopping.target_error", accumulate.stopping.target_error,
                     "must be 0 with tile_samples");
     for (std::uint32_t tile = 0; accumulate.tile_samples && tile < accumulate.tile_count; ++tile)
         if (accumulate.tile_samples[tile] > accumulate.sample_count) {
@@ -277,7 +280,6 @@ pt_result pt_cancel(pt_context *context) {
 pt_result pt_readback(pt_context *context, const pt_image *image) {
     return pt::guard_context(context, [&](pt::Renderer &renderer) {
         const pt_image target = pt::copy_in(image, "image");
-        // Without pt_set_render the renderer refuses the call.
         const bool sized = renderer.width() > 0;
         renderer.readback(
             sized ? pt::validated_image(target, renderer.width(), renderer.row_count(), pt::ImageSource::Context)

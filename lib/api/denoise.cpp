@@ -6,9 +6,9 @@
 #include "lib/base/struct_size.h"
 #include "lib/denoise/combination.h"
 #include "lib/denoise/open_image_denoise.h"
+#include "lib/film/stopping.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -43,11 +43,11 @@ ErrorEstimate denoise(const pt_denoise_info &info) {
     return combine(info, first.data(), second.data());
 }
 
-pt_error_estimate denoise(const pt_denoise_info *info, pt_error_estimate *error) {
+ErrorEstimate denoise(const pt_denoise_info *info, pt_error_estimate *error) {
     struct_size_of(error, "error");
-    const pt_error_estimate stated_error = stated(denoise(validated_denoise(info)));
-    copy_out(stated_error, error, "error");
-    return stated_error;
+    const ErrorEstimate estimate = denoise(validated_denoise(info));
+    copy_out(stated(estimate), error, "error");
+    return estimate;
 }
 
 pt_rounds_info validated_rounds(const pt_rounds_info *user) {
@@ -55,8 +55,7 @@ pt_rounds_info validated_rounds(const pt_rounds_info *user) {
     Violations violations;
     const Subject subject(violations, "rounds");
     subject.require(rounds.sample_count >= 1, "sample_count", rounds.sample_count, "must be >= 1");
-    subject.check("target_error", rounds.target_error, not_negative_rule);
-    subject.check("time_limit", rounds.time_limit, not_negative_rule);
+    Stopping{rounds.stopping}.check(violations);
     if (!rounds.render)
         subject.refuse("render", "NULL", "must not be NULL");
     violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
@@ -64,24 +63,21 @@ pt_rounds_info validated_rounds(const pt_rounds_info *user) {
 }
 
 pt_result denoise_rounds(const pt_rounds_info &rounds, const pt_denoise_info *info, pt_error_estimate *error) {
-    using Seconds = std::chrono::duration<double>;
     constexpr double first = 16.0; // the first number with a known error
-    const auto start = std::chrono::steady_clock::now();
-    const bool has_rule = rounds.target_error > 0.0 || rounds.time_limit > 0.0;
-    double end = has_rule ? std::min<double>(first, rounds.sample_count) : rounds.sample_count;
-    for (double done = 0.0; end > done;) {
+    const Stopping stopping{rounds.stopping};
+    double done = 0.0;
+    double end = stopping.has_any() ? std::min<double>(first, rounds.sample_count) : rounds.sample_count;
+    while (end > done) {
         if (rounds.render(rounds.render_user, static_cast<std::uint32_t>(end)) != 0)
             return PT_CANCELLED;
-        const double reached = denoise(info, error).relative_rmse_high;
-        if (rounds.target_error > 0.0 && reached <= rounds.target_error)
+        if (stopping.is_reached(denoise(info, error)))
             return PT_TARGET_REACHED;
         done = end;
         end = std::min<double>(std::max(std::floor(1.5 * done), first), rounds.sample_count);
-        const double seconds = Seconds(std::chrono::steady_clock::now() - start).count();
-        if (rounds.time_limit > 0.0)
-            end = std::min(end, std::floor(done * (rounds.time_limit / seconds)));
+        if (const double spent = stopping.spent(); spent > 0.0)
+            end = std::min(end, std::floor(done / spent));
     }
-    return PT_OK;
+    return done < rounds.sample_count ? PT_LIMIT_REACHED : PT_OK;
 }
 
 } // namespace

@@ -63,7 +63,7 @@ std::vector<float> render(double eye) {
     settings.struct_size = sizeof settings;
     settings.width = width;
     settings.height = height;
-    const pt_accumulate_info samples{sizeof samples, 64, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
+    const pt_accumulate_info samples{sizeof samples, 64, nullptr, nullptr, 0, 0, nullptr, 0, 0, {}};
     std::vector<float> pixels(std::size_t{3} * width * height);
     pt_image image{};
     image.struct_size = sizeof image;

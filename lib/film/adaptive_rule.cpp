@@ -189,7 +189,7 @@ std::optional<TileStep> AdaptivePlan::next_together(const TileSamples &samples, 
     const std::uint64_t count = samples.least();
     if (samples.even() && is_level(count) && are_worth_telling_apart(tile_gains(samples, film_.squares())))
         return next_apart(samples, round);
-    if (samples.even() && is_check(count) && film_.error().relative_rmse.high <= target_error_)
+    if (samples.even() && is_check(count) && stopping_.is_reached(film_.error()))
         return next_on_target(samples, round);
     const std::uint64_t goal = std::min(next_check(count), counts_.most);
     return TileStep{tiles_where(samples, [=](std::uint32_t, std::uint64_t has) { return has < goal; }),
@@ -209,15 +209,15 @@ std::optional<TileStep> AdaptivePlan::next_apart(const TileSamples &samples, Ada
     const double of_tiles = error_of(samples, squares);
     double error = of_tiles;
     bool sees_too_little = false;
-    if (of_tiles <= near_target * target_error_ || !tiles.empty()) {
+    if (stopping_.is_near(of_tiles, near_target) || !tiles.empty()) {
         const ErrorEstimate of_image = film_.error();
-        if (of_image.relative_rmse.high <= target_error_)
+        if (stopping_.is_reached(of_image))
             return next_on_target(samples, round);
         sees_too_little = (of_image.uncertain & PT_UNCERTAIN_UNSEEN) != 0;
         error = sees_too_little ? of_tiles : of_image.relative_rmse.high;
     }
     if (tiles.empty()) {
-        round = round_after(round, samples, squares, gains, squared(error / target_error_), sees_too_little);
+        round = round_after(round, samples, squares, gains, squared(stopping_.excess(error)), sees_too_little);
         tiles = wanting_tiles(samples, gains, lamps, round);
     }
     if (std::ranges::none_of(tiles, may_ever_take))

@@ -2,8 +2,8 @@
 // is one of the levels 16, 32, 64, .... A tile's gain is the expected decrease of the squared error per added sample.
 #pragma once
 
-#include "lib/film/error_estimate.h"
 #include "lib/film/film_header.h"
+#include "lib/film/stopping.h"
 #include "lib/film/tile_samples.h"
 
 #include <cstdint>
@@ -60,8 +60,8 @@ struct MostSamples {
 // decide whether it needs samples. So interruptions do not change the film.
 class AdaptivePlan {
 public:
-    AdaptivePlan(double target_error, const MostSamples &counts, FilmLooks film) :
-        target_error_(target_error),
+    AdaptivePlan(const Stopping &stopping, const MostSamples &counts, FilmLooks film) :
+        stopping_(stopping),
         counts_(counts),
         film_(std::move(film)) {}
 
@@ -77,7 +77,7 @@ private:
     std::vector<std::uint32_t> unfinished_tiles(const TileSamples &samples) const;
     TileStep to_next_level(const TileSamples &samples, std::vector<std::uint32_t> tiles) const;
 
-    double target_error_;
+    Stopping stopping_;
     MostSamples counts_;
     FilmLooks film_;
 };

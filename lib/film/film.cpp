@@ -282,7 +282,9 @@ std::vector<std::uint64_t> Film::samples_for_lamps(const TileGrid &grid) const {
 }
 
 std::optional<TileStep> Film::plan(const TileSamples &samples, double target_error, std::uint64_t most) {
-    const AdaptivePlan plan(target_error, {most, most},
+    pt_stopping rules{};
+    rules.target_error = target_error;
+    const AdaptivePlan plan({rules}, {most, most},
                             {[&] { return error(samples, errors_); }, [&] { return own_squares(samples); },
                              [&] { return samples_for_lamps(samples.grid()); }});
     return plan.next(samples, header_.round);

@@ -31,7 +31,7 @@ ENUMERATIONS = (
                                               "a factor of two."),
     ("PT_SCENE_FILE_", "SceneFileFlag", "IntFlag", "Parts of a scene file that are read."),
     ("PT_", "Result", "IntEnum", "The result of a call. Errors are raised (see Error), so calls return one of the first "
-                                 "four."),
+                                 "five."),
 )
 
 # The program's table of each prefix, and the separator between the words of a value's name.
@@ -79,17 +79,17 @@ def structs_text(headers, columns):
     for result, name, parameters in re.findall(r"typedef (\w+) \(\*(pt_\w+)\)\(([^)]*)\);", text):
         types = [python_type(kind.strip(), ()) for kind in re.findall(r"([^,]*?)\w+(?:,|$)", parameters)]
         lines.append(f"{name} = ctypes.CFUNCTYPE({', '.join(['None' if result == 'void' else NUMBERS[result], *types])})")
-    lines += ["", "", "class Sized(ctypes.Structure):",
-              '    """A struct that begins with its size."""', "",
-              "    def __init__(self, *others: Any, **fields: Any) -> None:",
-              "        super().__init__(*others, struct_size=ctypes.sizeof(self), **fields)"]
+    lines += ["", "", "class Struct(ctypes.Structure):", "    def __init__(self, *others: Any, **fields: Any) -> None:",
+              "        if unknown := fields.keys() - {each[0] for each in self._fields_}:",
+              '            raise TypeError(f"{type(self).__name__} has no field {min(unknown)}")',
+              '        if self._fields_[0][0] == "struct_size":', '            fields["struct_size"] = ctypes.sizeof(self)',
+              "        super().__init__(*others, **fields)"]
     known = []
     for name, body in re.findall(r"\bstruct (\w+) \{(.*?)\}", text, re.DOTALL):
         members = [(member, python_type(kind, known)) for member, kind in members_of(body)]
-        base = "Sized" if members[0][0] == "struct_size" else "ctypes.Structure"
         fields = ", ".join(f'("{member}",~{kind.replace(" ", "~")})' for member, kind in members)
         fields = textwrap.fill(f"    _fields_ = [{fields}]", 120, subsequent_indent=" " * 16).replace("~", " ")
-        lines += ["", "", f"class {name}({base}):", fields]
+        lines += ["", "", f"class {name}(Struct):", fields]
         known.append(name)
     rows = ", ".join(f'"{name}":~({components},~"{types}")' for name, components, types in columns_of(columns))
     lines += ["", "", "# For each column of pt_sphere_array, the number and the type of its components.",
@@ -143,9 +143,10 @@ def program_text(headers):
         rows = [f'    {{"{words[name]}", {name}}},' for name in names]
         lines += [f"inline constexpr ValueNames {table}({{", *rows, "});", ""]
     body = re.search(r"struct pt_display_info \{(.*?)\}", without_comments("".join(headers)), re.DOTALL)[1]
-    calls = [f'    show("{name}", display.{name});' for name, kind in members_of(body) if kind.startswith("double")]
-    lines += ["// Calls show() with the name and the value of each number and each array.", "template <typename Show>",
-              "void show_numbers(const pt_display_info &display, const Show &show) {", *calls, "}", ""]
+    rows = [f'        {{"{name}", {f"display.{name}" if "[" in kind else f"{{&display.{name}, 1}}"}}},'
+            for name, kind in members_of(body) if kind.startswith("double")]
+    lines += [f"inline std::array<Named<std::span<const double>>, {len(rows)}> numbers_of(const pt_display_info &display) {{",
+              "    return {{", *rows, "    }};", "}", ""]
     return "\n".join([*lines, "} // namespace pt"]) + "\n"
 
 

@@ -8,11 +8,12 @@
 namespace pt {
 
 Accumulation::Accumulation(const RenderDevices &devices, TileSamples samples, std::uint32_t first_sample,
-                           std::uint64_t wanted, const Progress &progress, const Cancellation &cancellation,
-                           DeviceWork &work) :
+                           std::uint64_t wanted, const Progress &progress, const Stopping &stopping,
+                           const Cancellation &cancellation, DeviceWork &work) :
     devices_(devices),
     work_(work),
     progress_(progress),
+    stopping_(stopping),
     cancellation_(cancellation),
     wanted_(std::max<std::uint64_t>(wanted, 1)),
     samples_(std::move(samples)),
@@ -55,7 +56,9 @@ bool Accumulation::run(Clock::time_point until) {
 
 void Accumulation::deal() {
     if (cancellation_.is_asked())
-        stop();
+        stopped_ = PT_CANCELLED;
+    else if (done_ > 0 && stopped_ == PT_OK && stopping_.spent() >= 1.0)
+        stopped_ = PT_LIMIT_REACHED;
     if (begun_)
         start_begun();
     for (bool dealt = true; dealt;) {
@@ -66,7 +69,7 @@ void Accumulation::deal() {
 }
 
 bool Accumulation::deal_to(RenderDevice &device) {
-    if (tasks_.empty() || (stopped_ && !tasks_.is_within_samples()) || !device.has_room())
+    if (tasks_.empty() || (stopped_ != PT_OK && !tasks_.is_within_samples()) || !device.has_room())
         return false;
     const TileSlice slice = tasks_.next(device.schedule());
     if (!has_room_for(slice, device))
@@ -118,7 +121,7 @@ bool Accumulation::is_under_way() const {
 }
 
 bool Accumulation::complete() noexcept {
-    stop();
+    stopped_ = PT_CANCELLED;
     try {
         return run(Clock::time_point::max());
     } catch (...) {
@@ -153,8 +156,8 @@ void Accumulation::finish_slice(RenderDevice &device) {
     ++work_.submit_count;
     work_.seconds += seconds;
     done_ += tile_samples;
-    if (progress_.function && !stopped_)
-        stopped_ = progress_.function(progress_.user, fraction()) != 0;
+    if (progress_.function && stopped_ == PT_OK && progress_.function(progress_.user, fraction()) != 0)
+        stopped_ = PT_CANCELLED;
 }
 
 } // namespace pt

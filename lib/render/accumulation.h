@@ -2,6 +2,7 @@
 // slices.
 #pragma once
 
+#include "lib/film/stopping.h"
 #include "lib/film/tile_samples.h"
 #include "lib/render/render_device.h"
 #include "lib/render/tile_tasks.h"
@@ -53,7 +54,8 @@ public:
 
     // `samples` are already in the films. `wanted` is the largest number of samples to be added, summed over tiles.
     Accumulation(const RenderDevices &devices, TileSamples samples, std::uint32_t first_sample, std::uint64_t wanted,
-                 const Progress &progress, const Cancellation &cancellation, DeviceWork &work);
+                 const Progress &progress, const Stopping &stopping, const Cancellation &cancellation,
+                 DeviceWork &work);
     Accumulation(const Accumulation &) = delete;
     Accumulation &operator=(const Accumulation &) = delete;
 
@@ -68,9 +70,8 @@ public:
 
     bool is_under_way() const;
 
-    // No new samples begin after this.
-    void stop() { stopped_ = true; }
-    bool stopped() const { return stopped_; }
+    // PT_OK, or the result of a call that no longer begins samples.
+    pt_result stopped() const { return stopped_; }
 
     // Completes begun samples after an exception. If this fails too, returns false, and the films are invalid. Nothing
     // is running afterwards.
@@ -106,6 +107,7 @@ private:
     const RenderDevices &devices_;
     DeviceWork &work_;
     Progress progress_;
+    Stopping stopping_;
     const Cancellation &cancellation_;
     std::uint64_t wanted_;
     std::uint64_t done_ = 0;
@@ -116,7 +118,7 @@ private:
     std::optional<double> unit_of_error_;
     std::optional<Begun> begun_;
     bool has_estimate_ = false;
-    bool stopped_ = false;
+    pt_result stopped_ = PT_OK;
 };
 
 } // namespace pt

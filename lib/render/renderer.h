@@ -122,7 +122,7 @@ public:
 
 private:
     struct Job {
-        double target_error; // relative error; 0: no target
+        Stopping stopping;
         MostSamples counts;
         std::uint64_t together_to;        // up to this count all tiles have equal samples
         bool is_together;                 // true below together_to
@@ -149,7 +149,7 @@ private:
     const ErrorEstimate &error();
     void look(std::span<double> by_tile, bool is_recorded);
     const std::vector<double> &tile_squares();
-    bool is_on_target(double target_error);
+    bool is_on_target();
     const std::vector<LampPiece> &small_lamps();
     const std::vector<std::uint64_t> &samples_for_lamps();
     std::uint64_t adaptive_from() const;

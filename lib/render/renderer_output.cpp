@@ -113,9 +113,9 @@ const std::vector<double> &Renderer::tile_squares() {
     return tile_squares_;
 }
 
-bool Renderer::is_on_target(double target_error) {
+bool Renderer::is_on_target() {
     const std::uint64_t count = samples_.of(0).count();
-    return target_error > 0.0 && is_check(count) && error().relative_rmse.high <= target_error &&
+    return job_->stopping.has_target() && is_check(count) && job_->stopping.is_reached(error()) &&
            std::ranges::all_of(samples_for_lamps(), [=](std::uint64_t needed) { return needed <= count; });
 }
 

@@ -54,6 +54,7 @@ void Renderer::begin(const pt_accumulate_info &wanted, bool is_polled) {
 
 // If `is_polled`, builds all kernels now.
 void Renderer::make_job(const pt_accumulate_info &wanted, bool is_polled) {
+    const Stopping stopping{wanted.stopping};
     require_settings();
     require_tiles(wanted);
     require_room_for(wanted.sample_count);
@@ -61,10 +62,10 @@ void Renderer::make_job(const pt_accumulate_info &wanted, bool is_polled) {
         device->prepare(view(), *settings_);
     if (is_polled) {
         for (const auto &device : devices_)
-            device->prepare_for_polls(wanted.target_error > 0.0);
+            device->prepare_for_polls(stopping.has_target());
         film_view_.prepare();
     }
-    const bool is_adaptive = wanted.target_error > 0.0 && wanted.sampling != PT_SAMPLING_UNIFORM;
+    const bool is_adaptive = stopping.has_target() && wanted.sampling != PT_SAMPLING_UNIFORM;
     const std::uint32_t *const of_tiles = wanted.tile_samples;
     const std::uint64_t most = samples_.most() + wanted.sample_count;
     const std::uint64_t together_to = is_adaptive ? std::min(most, adaptive_from()) : most;
@@ -75,7 +76,7 @@ void Renderer::make_job(const pt_accumulate_info &wanted, bool is_polled) {
         for (std::size_t tile = 0; tile < samples_.grid().count(); ++tile)
             goals.push_back(samples_.of(tile).count() + (of_tiles != nullptr ? of_tiles[tile] : wanted.sample_count));
     // NOLINTNEXTLINE(modernize-make-unique): an aggregate, which cannot be moved
-    job_.reset(new Job{wanted.target_error,
+    job_.reset(new Job{stopping,
                        {most, std::max<std::uint64_t>(most, wanted.sample_limit)},
                        together_to,
                        is_together,
@@ -85,6 +86,7 @@ void Renderer::make_job(const pt_accumulate_info &wanted, bool is_polled) {
                         settings_->first_sample,
                         amount_of(wanted, samples_.grid()),
                         {wanted.progress, wanted.progress_user},
+                        stopping,
                         cancellation_,
                         work_}});
 }
@@ -146,8 +148,8 @@ pt_result Renderer::advance(Accumulation::Clock::time_point until) {
             return PT_PENDING;
         take_over(accumulation.samples());
         const bool is_complete = job_->is_together && samples_.least() == job_->counts.most;
-        if (accumulation.stopped() && !is_complete)
-            return PT_CANCELLED;
+        if (accumulation.stopped() != PT_OK && !is_complete)
+            return accumulation.stopped();
     }
 }
 
@@ -165,7 +167,7 @@ std::optional<pt_result> Renderer::next_step() {
     if (samples_.even() && samples_.of(0).count() < adaptive_from())
         return PT_OK;
     const AdaptivePlan plan(
-        job_->target_error, job_->counts,
+        job_->stopping, job_->counts,
         {[&] { return error(); }, [&] { return tile_squares(); }, [&] { return samples_for_lamps(); }});
     const std::optional<TileStep> step = plan.next(samples_, round_);
     if (!step)
@@ -175,9 +177,9 @@ std::optional<pt_result> Renderer::next_step() {
 
 std::optional<pt_result> Renderer::next_step_together() {
     const std::uint64_t count = samples_.of(0).count();
-    if (is_on_target(job_->target_error))
+    if (is_on_target())
         return PT_TARGET_REACHED;
-    const std::uint64_t check = job_->target_error > 0.0 ? next_check(count) : job_->together_to;
+    const std::uint64_t check = job_->stopping.has_target() ? next_check(count) : job_->together_to;
     const bool is_looked_at = check < job_->together_to;
     job_->accumulation.set_goal_of_all(std::min(check, job_->together_to),
                                        is_looked_at ? std::optional(scene_->film_unit) : std::nullopt);

@@ -65,12 +65,12 @@ inline constexpr ValueNames uncertainties({
     {"unmet", PT_UNCERTAIN_UNMET},
 });
 
-// Calls show() with the name and the value of each number and each array.
-template <typename Show>
-void show_numbers(const pt_display_info &display, const Show &show) {
-    show("exposure", display.exposure);
-    show("gamma", display.gamma);
-    show("white", display.white);
+inline std::array<Named<std::span<const double>>, 3> numbers_of(const pt_display_info &display) {
+    return {{
+        {"exposure", {&display.exposure, 1}},
+        {"gamma", {&display.gamma, 1}},
+        {"white", display.white},
+    }};
 }
 
 } // namespace pt

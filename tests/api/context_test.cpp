@@ -5,6 +5,7 @@
 #include <pt/devices.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstring>
 #include <limits>
 #include <stdexcept>
@@ -138,9 +139,9 @@ TEST_F(ApiTest, FailedCallsChangeNothing) {
     for (const auto &[target, value] : {std::pair{-0.5, "-0.5"},
                                         {std::numeric_limits<double>::infinity(), "inf"},
                                         {std::numeric_limits<double>::quiet_NaN(), "nan"}}) {
-        aimless.target_error = target;
+        aimless.stopping.target_error = target;
         expect_failure(pt_accumulate(context(), &aimless), PT_ERROR_INVALID_ARGUMENT,
-                       std::string("accumulate.target_error = ") + value + ": must be finite and >= 0");
+                       std::string("stopping.target_error = ") + value + ": must be finite and >= 0");
     }
     expect_image(3);
 
@@ -208,7 +209,7 @@ TEST_F(ApiTest, TheErrorIsKnownFrom16Samples) {
         EXPECT_EQ(unknown.relative_rmse_high, infinity);
     }
     pt_accumulate_info info = samples(100);
-    info.target_error = 1e-6;
+    info.stopping.target_error = 1e-6;
     ASSERT_EQ(pt_accumulate(context(), &info), PT_TARGET_REACHED) << message();
     expect_image(16);
     const pt_error_estimate known = error();
@@ -216,9 +217,33 @@ TEST_F(ApiTest, TheErrorIsKnownFrom16Samples) {
     EXPECT_EQ(known.relative_rmse_high, 0.0);
     ASSERT_EQ(pt_accumulate(context(), &info), PT_TARGET_REACHED) << message();
     expect_image(16);
-    info.target_error = 0.0;
+    info.stopping.target_error = 0.0;
     ASSERT_EQ(pt_accumulate(context(), &info), PT_OK) << message();
     expect_image(116);
+}
+
+TEST_F(ApiTest, ATimeLimitKeepsCompleteSamplesAndAtLeastOne) {
+    set_all();
+    pt_accumulate_info info = samples(1U << 30);
+    info.stopping.time_limit = 1e-9;
+    ASSERT_EQ(pt_accumulate(context(), &info), PT_LIMIT_REACHED) << message();
+    const uint32_t taken = stats().sample_count;
+    EXPECT_GE(taken, 1U);
+    expect_image(taken);
+    info.stopping.time_limit = 0.2;
+    const auto start = std::chrono::steady_clock::now();
+    ASSERT_EQ(pt_accumulate(context(), &info), PT_LIMIT_REACHED) << message();
+    EXPECT_GE(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(200));
+    EXPECT_GT(stats().sample_count, taken);
+    info.stopping.time_limit = 1e9;
+    info.sample_count = 3;
+    ASSERT_EQ(pt_accumulate(context(), &info), PT_OK) << message();
+    info.stopping.target_error = 1e9;
+    info.sample_count = 1U << 30;
+    ASSERT_EQ(pt_accumulate(context(), &info), PT_TARGET_REACHED) << message();
+    info.stopping.time_limit = -1.0;
+    expect_failure(pt_accumulate(context(), &info), PT_ERROR_INVALID_ARGUMENT,
+                   "stopping.time_limit = -1: must be finite and >= 0");
 }
 
 TEST_F(ApiTest, ProgressThatThrowsIsAnErrorThatKeepsTheFilmWhole) {

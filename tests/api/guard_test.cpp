@@ -33,6 +33,7 @@ TEST(ResultName, IsThatOfTheHeader) {
     EXPECT_STREQ(pt::result_name(PT_CANCELLED), "PT_CANCELLED");
     EXPECT_STREQ(pt::result_name(PT_TARGET_REACHED), "PT_TARGET_REACHED");
     EXPECT_STREQ(pt::result_name(PT_PENDING), "PT_PENDING");
+    EXPECT_STREQ(pt::result_name(PT_LIMIT_REACHED), "PT_LIMIT_REACHED");
     EXPECT_STREQ(pt::result_name(PT_ERROR_INVALID_ARGUMENT), "PT_ERROR_INVALID_ARGUMENT");
     EXPECT_STREQ(pt::result_name(PT_ERROR_INVALID_SCENE), "PT_ERROR_INVALID_SCENE");
     EXPECT_STREQ(pt::result_name(PT_ERROR_INVALID_STATE), "PT_ERROR_INVALID_STATE");
@@ -46,7 +47,7 @@ TEST(ResultName, IsThatOfTheHeader) {
     EXPECT_STREQ(pt::result_name(PT_ERROR_INCOMPATIBLE), "PT_ERROR_INCOMPATIBLE");
     EXPECT_STREQ(pt::result_name(PT_ERROR_FILE), "PT_ERROR_FILE");
     EXPECT_STREQ(pt::result_name(-13), "unknown result");
-    EXPECT_STREQ(pt::result_name(4), "unknown result");
+    EXPECT_STREQ(pt::result_name(5), "unknown result");
 }
 
 using Lines = std::vector<std::string>;

@@ -216,7 +216,7 @@ TEST_F(PollingTest, WhatIsStartedFollowsTheRules) {
     expect_failure(start(context(), 0), PT_ERROR_INVALID_ARGUMENT,
                    "accumulate.sample_count = 0: must be >= 1 without a target_error");
     expect_failure(start(context(), 1, -1), PT_ERROR_INVALID_ARGUMENT,
-                   "accumulate.target_error = -1: must be finite and >= 0");
+                   "stopping.target_error = -1: must be finite and >= 0");
     expect_failure(pt_poll(context(), 0, nullptr), PT_ERROR_INVALID_STATE, not_under_way);
     expect_image(1);
 }

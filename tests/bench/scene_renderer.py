@@ -60,7 +60,7 @@ class Renderer:
 
     def accumulate(self, sample_count, target_error=0.0):
         return self.call("pt_accumulate",
-                         structs.pt_accumulate_info(sample_count=sample_count, target_error=target_error))
+                         structs.pt_accumulate_info(sample_count=sample_count, stopping=structs.pt_stopping(target_error=target_error)))
 
     def readback(self, values):
         self.call("pt_readback", structs.pt_image(data=ctypes.addressof(values), size_bytes=ctypes.sizeof(values)))

@@ -207,9 +207,10 @@ pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *info) {
     const auto pause = std::chrono::milliseconds(std::atoi(milliseconds.c_str())) / submissions_per_sample;
     const std::uint64_t submissions = std::uint64_t{info->sample_count} * submissions_per_sample;
     const std::uint32_t before = context->sample_count;
+    const auto start = std::chrono::steady_clock::now();
     ++context->call_count;
     for (std::uint64_t done = 1; done <= submissions; ++done) {
-        if (fake_error(context->sample_count) <= info->target_error)
+        if (fake_error(context->sample_count) <= info->stopping.target_error)
             return PT_TARGET_REACHED;
         raise_wanted_signal();
         std::this_thread::sleep_for(pause);
@@ -217,6 +218,10 @@ pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *info) {
         if (info->progress != nullptr &&
             info->progress(info->progress_user, static_cast<double>(done) / static_cast<double>(submissions)) != 0)
             return PT_CANCELLED;
+        const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
+        const bool is_over = info->stopping.time_limit > 0.0 && passed.count() >= info->stopping.time_limit;
+        if (is_over && done % submissions_per_sample == 0 && done < submissions)
+            return PT_LIMIT_REACHED;
     }
     return PT_OK;
 }

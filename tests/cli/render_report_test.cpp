@@ -57,8 +57,10 @@ TEST(RenderReport, PixelsWithDifferentNumbersOfSamples) {
     EXPECT_EQ(cli::summary_text(report), "256x128, 37.3 (16 to 64) spp in 2.50 s on a device");
     set_error(report, 0.0042, 0.0040, 0.0044);
     report.target_error = 0.0044;
+    report.target_reached = true;
     EXPECT_TRUE(cli::error_text(report).ends_with("target reached after 37.3 (16 to 64) samples"));
     report.target_error = 0.0043;
+    report.target_reached = false;
     EXPECT_TRUE(cli::error_text(report).ends_with("after 37.3 (16 to 64) samples, raise --spp"));
     report.window.part = {10, 20, 40, 30};
     EXPECT_EQ(cli::stats_json(report).at("samples_per_second"), 256.0 * 30.0 * 37.3125 / 2.0);

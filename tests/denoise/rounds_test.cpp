@@ -37,11 +37,11 @@ struct Rounds {
 
 TEST(DenoiseRounds, AreHalfAsLargeAgain) {
     using Ends = std::vector<std::uint32_t>;
-    const auto ends = [](std::uint32_t sample_count, double target_error, double time_limit) {
+    const auto ends = [](std::uint32_t sample_count, double target_error, double time_limit, pt_result ended = PT_OK) {
         Rounds rounds(sample_count);
-        rounds.info.target_error = target_error;
-        rounds.info.time_limit = time_limit;
-        EXPECT_EQ(rounds.run(), PT_OK);
+        rounds.info.stopping.target_error = target_error;
+        rounds.info.stopping.time_limit = time_limit;
+        EXPECT_EQ(rounds.run(), ended);
         return rounds.ends;
     };
     EXPECT_EQ(ends(100, 1e-9, 0.0), (Ends{16, 24, 36, 54, 81, 100}));
@@ -49,15 +49,15 @@ TEST(DenoiseRounds, AreHalfAsLargeAgain) {
     EXPECT_EQ(ends(16, 1e-9, 0.0), Ends{16});
     EXPECT_EQ(ends(10, 1e-9, 0.0), Ends{10});
     EXPECT_EQ(ends(100, 0.0, 0.0), Ends{100});
-    EXPECT_EQ(ends(100, 0.0, 1e-9), Ends{16});
+    EXPECT_EQ(ends(100, 0.0, 1e-9, PT_LIMIT_REACHED), Ends{16});
 }
 
 // The first round takes at least 5/6 of the time.
 TEST(DenoiseRounds, FitTheTime) {
     Rounds rounds(100);
-    rounds.info.time_limit = 0.3;
+    rounds.info.stopping.time_limit = 0.3;
     rounds.duration = std::chrono::milliseconds(250);
-    EXPECT_EQ(rounds.run(), PT_OK);
+    EXPECT_EQ(rounds.run(), PT_LIMIT_REACHED);
     EXPECT_LE(rounds.ends.back(), 19U);
 }
 
@@ -67,7 +67,7 @@ TEST(DenoiseRounds, EndAtTheTargetError) {
     const double target = once.denoising.error.relative_rmse_high;
     for (const bool reaches : {false, true}) {
         Rounds rounds(16);
-        rounds.info.target_error = reaches ? target : std::nextafter(target, 0.0);
+        rounds.info.stopping.target_error = reaches ? target : std::nextafter(target, 0.0);
         EXPECT_EQ(rounds.run(), reaches ? PT_TARGET_REACHED : PT_OK);
         EXPECT_EQ(rounds.denoising.denoised, once.denoising.denoised);
     }
@@ -75,7 +75,7 @@ TEST(DenoiseRounds, EndAtTheTargetError) {
 
 TEST(DenoiseRounds, KeepTheLastPictureIfStopped) {
     Rounds rounds(100);
-    rounds.info.target_error = 1e-9;
+    rounds.info.stopping.target_error = 1e-9;
     rounds.most_rounds = 0;
     EXPECT_EQ(rounds.run(), PT_CANCELLED);
     EXPECT_EQ(rounds.denoising.denoised[0], -1.0F);
@@ -95,8 +95,9 @@ TEST(DenoiseRounds, RefuseWhatBreaksARule) {
         EXPECT_EQ(pt_last_error(nullptr), message);
     };
     refused([](Rounds &r) { r.info.sample_count = 0; }, "rounds.sample_count = 0: must be >= 1");
-    refused([](Rounds &r) { r.info.target_error = NAN; }, "rounds.target_error = nan: must be finite and >= 0");
-    refused([](Rounds &r) { r.info.time_limit = -1.0; }, "rounds.time_limit = -1: must be finite and >= 0");
+    refused([](Rounds &r) { r.info.stopping.target_error = NAN; },
+            "stopping.target_error = nan: must be finite and >= 0");
+    refused([](Rounds &r) { r.info.stopping.time_limit = -1.0; }, "stopping.time_limit = -1: must be finite and >= 0");
     refused([](Rounds &r) { r.info.render = nullptr; }, "rounds.render = NULL: must not be NULL");
     refused([](Rounds &r) { r.denoising.info.albedo = nullptr; }, "denoise.albedo = NULL: must not be NULL");
 }

@@ -227,7 +227,7 @@ void Life::accumulate_to(const std::string &step, uint32_t sample_count, double 
     auto info = sized<pt_accumulate_info>();
     info.sample_count = sample_count - state().sample_count;
     info.progress = &go_on;
-    info.target_error = target_error;
+    info.stopping.target_error = target_error;
     info.sampling = PT_SAMPLING_UNIFORM;
     const uint32_t before = state().sample_count;
     call(

@@ -56,7 +56,7 @@ void expect_nothing_built_by_polls(const Way &way) {
         ASSERT_EQ(pt_set_camera(made, &camera), PT_OK) << pt_last_error(made);
         auto samples = sized<pt_accumulate_info>();
         samples.sample_count = way.by_tile ? 40 : 1U << 20;
-        samples.target_error = way.target_error;
+        samples.stopping.target_error = way.target_error;
         samples.tile_samples = way.by_tile ? tiles.data() : nullptr;
         samples.tile_count = way.by_tile ? static_cast<uint32_t>(tiles.size()) : 0;
         pt_result result = pt_start(made, &samples);

@@ -40,7 +40,7 @@ pt_result take_to_target(pt_context *context) {
     const InLibrary in_library;
     auto info = sized<pt_accumulate_info>();
     info.sample_count = 1U << 20;
-    info.target_error = 0.03;
+    info.stopping.target_error = 0.03;
     return pt_accumulate(context, &info);
 }
 

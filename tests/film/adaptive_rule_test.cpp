@@ -204,6 +204,7 @@ TEST(AdaptiveRule, OfTwoFilmsTheLaterRoundGoesOn) {
 
 constexpr TileGrid plan_grid{64, 32}; // 32 whole tiles
 constexpr double goal_error = 0.02;
+const pt::Stopping until_goal{{goal_error, 0.0}};
 
 bool hold_the_same(const pt::TileSamples &a, const pt::TileSamples &b) {
     for (std::size_t tile = 0; tile < a.grid().count(); ++tile)
@@ -261,7 +262,7 @@ private:
 };
 
 void sample_plan(ModelFilm &film, const ModelErrors &errors, const pt::MostSamples &counts, std::uint64_t stop_after) {
-    const AdaptivePlan plan(goal_error, counts,
+    const AdaptivePlan plan(until_goal, counts,
                             {[&] { return errors.error_of(film); }, [&] { return errors.squares_of(film); },
                              [&] { return errors.samples_for_lamps(); }});
     for (;;) {
@@ -341,7 +342,7 @@ TEST(AdaptivePlan, ARoundThatIsUnderWayIsNotTheEnd) {
     ModelFilm film{TileSamples(plan_grid, pt::SampleSet({0, 16})), {20, 0}, {}, false};
     film.samples.add(std::vector<std::uint32_t>{5}, {16, 24});
     film.squares.assign(plan_grid.count(), 0.0);
-    const AdaptivePlan plan(goal_error, {24, 1U << 30U},
+    const AdaptivePlan plan(until_goal, {24, 1U << 30U},
                             {[] {
                                  return pt::ErrorEstimate{{}, {0.0, 0.0, goal_error / 2}, 0};
                              },
@@ -358,7 +359,7 @@ TEST(AdaptivePlan, ATargetIsNotReachedBeforeLampsAreHit) {
     ModelFilm film{TileSamples(plan_grid, pt::SampleSet({0, 16})), {}, {}, false};
     film.squares.assign(plan_grid.count(), 0.0);
     std::vector<std::uint64_t> lamps(plan_grid.count());
-    const AdaptivePlan plan(goal_error, {1U << 30U, 1U << 30U},
+    const AdaptivePlan plan(until_goal, {1U << 30U, 1U << 30U},
                             {[] {
                                  return pt::ErrorEstimate{{}, {0.0, 0.0, goal_error / 2}, 0};
                              },

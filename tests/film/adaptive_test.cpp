@@ -137,7 +137,7 @@ TEST_F(AdaptiveTest, SplitsAndResumesChangeNoBit) {
             for (pt_result result = PT_OK; result != PT_TARGET_REACHED;) {
                 auto info = sized<pt_accumulate_info>();
                 info.sample_count = static_cast<uint32_t>(generator() % 60);
-                info.target_error = uneven_target;
+                info.stopping.target_error = uneven_target;
                 info.sample_limit = no_limit;
                 info.progress = generator() % 2 == 0 ? &Stopper::progress : nullptr;
                 info.progress_user = &stopper;

@@ -99,7 +99,8 @@ TEST_F(SplitIntoCalls, TheTargetErrorIsReachedAtTheFirstCheckThatSaysSo) {
 TEST_F(SplitIntoCalls, SamplesMayRunOutBeforeTheTargetErrorIsReached) {
     set_up_coursework(context(), 3);
     for (const double target : {1e-9, 1e9}) {
-        const pt_accumulate_info info{sizeof info, 8, nullptr, nullptr, target, PT_SAMPLING_UNIFORM, 0, nullptr, 0, 0};
+        pt_accumulate_info info = accumulate_info(8, target);
+        info.sampling = PT_SAMPLING_UNIFORM;
         ASSERT_EQ(pt_accumulate(context(), &info), PT_OK) << pt_last_error(context());
     }
     EXPECT_EQ(stats().sample_count, 16U);

@@ -118,7 +118,7 @@ TEST_F(UnknownError, NoTargetIsReachedBeforeALampInViewIsMet) {
         EXPECT_EQ(film_info.lamp_sample_count, needed);
         std::array<uint32_t, 16> goals{};
         uint32_t count = goals.size();
-        EXPECT_EQ(pt_plan_film(opened, info.target_error, 1000, goals.data(), &count), PT_PENDING);
+        EXPECT_EQ(pt_plan_film(opened, info.stopping.target_error, 1000, goals.data(), &count), PT_PENDING);
         EXPECT_EQ(std::ranges::max(goals), 64U);
         pt_close_film(opened);
     }

@@ -43,7 +43,7 @@ inline void require_done(pt_result result) {
 }
 
 inline void take_samples(std::uint32_t count) {
-    const pt_accumulate_info info{sizeof info, count, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
+    const pt_accumulate_info info{sizeof info, count, nullptr, nullptr, 0, 0, nullptr, 0, 0, {}};
     require_done(pt_accumulate(context(), &info));
 }
 

@@ -53,6 +53,7 @@ class Denoise(unittest.TestCase):
         self.assertTrue(32 < image.stats.sample_count < 4096)
         np.testing.assert_array_equal(image, self.rendered(image.stats.sample_count))
         self.assertEqual(self.rendered(40, target_error=1e-9).stats.sample_count, 40)
+        self.assertEqual(self.rendered(40, time_limit=1e-9).stats.sample_count, 32)
 
     def test_figures(self):
         options = {"size": (WIDTH, HEIGHT), "samples": 16, "context": self.context, "floor": True}

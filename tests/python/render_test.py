@@ -166,6 +166,8 @@ class Readback(unittest.TestCase):
         np.testing.assert_array_equal(self.context.readback(), self.image[4:9])
         self.assertEqual(ready(self.context, first_row=4).accumulate(4), pt.Result.OK)
         np.testing.assert_array_equal(self.context.readback(), self.image[4:])
+        self.assertEqual(self.context.accumulate(2**31, time_limit=1e-9), pt.Result.LIMIT_REACHED)
+        self.assertTrue(4 < self.context.stats().sample_count < 2**31)
         ready(self.context).accumulate(4)
 
 

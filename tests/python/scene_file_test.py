@@ -124,7 +124,7 @@ class Reading(unittest.TestCase):
         shown = {"exposure": "auto", "tonemap": "agx", "gamma": 2.5, "white": [1, 2, 0.5]}
         display = pt.load("s.json", text=json.dumps({"film": shown})).display
         self.assertEqual(display.fields(), {"curve": pt.Curve.AGX, "gamma": 2.5, "white": (1, 2, 0.5)})
-        self.assertEqual((json.loads(json.dumps(display._section())), pt.Display._of_section(display._section())), (shown, display))
+        self.assertEqual(json.loads(json.dumps(vars(display))), shown)
         for name in keys["tonemap"]["enum"]:
             self.assertEqual(pt.load("s.json", text=f'{{"film": {{"tonemap": "{name}"}}}}').display.tonemap, name)
         loaded = pt.load("s.json", text="{}")

@@ -53,7 +53,7 @@ inline pt_accumulate_info accumulate_info(uint32_t sample_count, double target_e
                                           pt_progress_fn progress = nullptr, void *user = nullptr) {
     auto info = sized<pt_accumulate_info>();
     info.sample_count = sample_count;
-    info.target_error = target_error;
+    info.stopping.target_error = target_error;
     info.progress = progress;
     info.progress_user = user;
     return info;

@@ -47,7 +47,7 @@ pt_context *ready_context(uint64_t seed) {
 
 pt_result live(uint64_t seed, uint32_t sample_count, Progress &progress, Image *image = nullptr) {
     pt_context *const context = ready_context(seed);
-    const pt_accumulate_info info{sizeof info, sample_count, &Progress::report, &progress, 0, 0, 0, nullptr, 0, 0};
+    const pt_accumulate_info info{sizeof info, sample_count, &Progress::report, &progress, 0, 0, nullptr, 0, 0, {}};
     const pt_result result = pt_accumulate(context, &info);
     EXPECT_GE(result, PT_OK) << pt_last_error(context);
     if (image) {
@@ -88,7 +88,7 @@ TEST(ThreadsTest, AnotherThreadStopsACall) {
 TEST(ThreadsTest, AnyThreadCancels) {
     pt_context *const context = ready_context(0);
     ASSERT_NE(context, nullptr);
-    const pt_accumulate_info info{sizeof info, 1U << 30, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
+    const pt_accumulate_info info{sizeof info, 1U << 30, nullptr, nullptr, 0, 0, nullptr, 0, 0, {}};
     for (const bool polls : {false, true, false, true}) {
         std::atomic<bool> ended{false};
         pt_result result = PT_OK;
@@ -123,7 +123,7 @@ TEST(ThreadsTest, ASecondThreadIsRefused) {
     Progress progress;
     pt_result result = PT_OK;
     std::thread renders([&] {
-        const pt_accumulate_info info{sizeof info, UINT32_MAX, &Progress::report, &progress, 0, 0, 0, nullptr, 0, 0};
+        const pt_accumulate_info info{sizeof info, UINT32_MAX, &Progress::report, &progress, 0, 0, nullptr, 0, 0, {}};
         result = pt_accumulate(context, &info);
     });
     while (progress.calls == 0)

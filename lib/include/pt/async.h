@@ -40,8 +40,8 @@ PT_API pt_result pt_start(pt_context *context, const pt_accumulate_info *info);
  * The call may take longer when it checks a target error, which reads the image. pt_poll builds no kernel. fraction may
  * be NULL. Otherwise it receives the finished fraction of the samples, in [0, 1], which never decreases.
  *
- * One thread at a time. PT_PENDING: samples are still being taken. PT_OK: all samples are taken. PT_TARGET_REACHED:
- * fewer samples were enough. PT_CANCELLED: pt_cancel was called; fewer samples are taken, all of them complete.
+ * One thread at a time. PT_PENDING: samples are still being taken. PT_OK: all samples are taken. PT_TARGET_REACHED,
+ * PT_LIMIT_REACHED: see pt_stopping. PT_CANCELLED: pt_cancel was called; fewer samples are taken, all of them complete.
  * PT_ERROR_INVALID_STATE: no samples are being taken. The same error in a callback, or during another thread's call,
  * does not end the sampling. */
 PT_API pt_result pt_poll(pt_context *context, uint64_t nanoseconds, double *fraction);

@@ -1,10 +1,10 @@
 /** @file
  * pt: denoising by Open Image Denoise, with the error of the denoised picture.
  *
- * pt_denoise filters two images of one scene, which have different seeds and equally many samples. The result lies
- * between the mean of both and the filtered images (shaders/README.md, section 11). Each value stays within the range
- * that both images have in the 3 x 3 pixels about it. The mean of a channel moves by at most its standard error. Values
- * stay unfiltered where the expected error of 32 x 32 pixels would rise.
+ * pt_denoise filters two images of one scene. The result lies between the mean of both and the filtered images
+ * (shaders/README.md, section 11). Each value stays within the range that both images have in the 3 x 3 pixels about
+ * it. The mean of a channel moves by at most its standard error. Values stay unfiltered where the expected error of 32
+ * x 32 pixels would rise.
  */
 #ifndef PT_DENOISE_H
 #define PT_DENOISE_H
@@ -53,16 +53,15 @@ typedef int32_t (*pt_round_fn)(void *user, uint32_t sample_count);
 typedef struct pt_rounds_info {
     uint32_t struct_size;  /**< sizeof(pt_rounds_info) */
     uint32_t sample_count; /**< most samples per pixel of each image, >= 1 */
-    double target_error;   /**< 0: none; else the largest wanted pt_error_estimate.relative_rmse_high */
-    double time_limit;     /**< 0: none; else seconds, which only the first round may exceed */
     pt_round_fn render;    /**< stores the images, or changes pt_denoise_info's pointers to them */
     void *render_user;     /**< argument of render */
+    pt_stopping stopping;  /**< only the first round may exceed a limit */
 } pt_rounds_info;
 
-/** Calls pt_denoise after each round of rendering. If target_error or time_limit is set, rounds end at 16, 24, 36, ...
+/** Calls pt_denoise after each round of rendering. With a rule in stopping, rounds end at 16, 24, 36, ...
  * samples per pixel, each 1.5 times the previous number. The last round is shorter if samples or time end first.
  *
- * Any thread. Returns PT_TARGET_REACHED, PT_CANCELLED if render stops, otherwise PT_OK. */
+ * Any thread. Returns PT_TARGET_REACHED, PT_LIMIT_REACHED, PT_CANCELLED if render stops, otherwise PT_OK. */
 PT_API pt_result pt_denoise_rounds(const pt_rounds_info *rounds, const pt_denoise_info *info, pt_error_estimate *error);
 
 #ifdef __cplusplus

@@ -58,6 +58,7 @@ enum {
     PT_CANCELLED = 1,                   /**< the caller stopped the call */
     PT_TARGET_REACHED = 2,              /**< the target error is reached; not all samples were taken */
     PT_PENDING = 3,                     /**< samples are still being taken (pt/async.h) */
+    PT_LIMIT_REACHED = 4,               /**< the time limit is reached; not all samples were taken */
     PT_ERROR_INVALID_ARGUMENT = -1,     /**< a field, size or pointer breaks a rule of this header */
     PT_ERROR_INVALID_SCENE = -2,        /**< a scene breaks a rule; the message names field, value and rule */
     PT_ERROR_INVALID_STATE = -3,        /**< another call must come first or must end first */
@@ -285,6 +286,15 @@ enum {
     PT_SAMPLING_ADAPTIVE = 2
 };
 
+/** Rules that end work early, >= 0. 0: no rule. */
+typedef struct pt_stopping {
+    /** PT_TARGET_REACHED once pt_error_estimate.relative_rmse_high is at most this value, and pixels with lamps smaller
+     * than a pixel have enough samples to hit them */
+    double target_error;
+    /** PT_LIMIT_REACHED after this many seconds and at least one sample of each pixel */
+    double time_limit;
+} pt_stopping;
+
 /** How many samples pt_accumulate is to add. */
 typedef struct pt_accumulate_info {
     uint32_t struct_size; /**< sizeof(pt_accumulate_info) */
@@ -298,15 +308,7 @@ typedef struct pt_accumulate_info {
      * sample of all pixels. The function cannot interrupt a driver that builds a kernel (pt_prepare). */
     pt_progress_fn progress;
     void *progress_user; /**< argument of progress */
-    /** 0: none. Otherwise the call returns PT_TARGET_REACHED once pt_error_estimate.relative_rmse_high is at most this
-     * value, and pixels with lamps smaller than a pixel have enough samples to hit them. The call returns PT_OK if
-     * sample_count is exhausted first, or if all pixels have sample_limit samples. Finite, >= 0.
-     *
-     * The error is checked at the numbers of samples that pt_next_check returns. With PT_SAMPLING_ADAPTIVE it is also
-     * checked after each round of sampling. So with the same sample_limit, the final samples of each pixel do not
-     * depend on the split over calls, devices and saved films. */
-    double target_error;
-    uint32_t sampling; /**< PT_SAMPLING_* */
+    uint32_t sampling;   /**< PT_SAMPLING_* */
     /** Largest number of samples of a pixel after this call and later ones, if target_error is set; otherwise 0. When
      * the pixels that need more samples reach this number, the other pixels take more. A sample_limit below the number
      * that sample_count allows is raised to that number. */
@@ -317,6 +319,12 @@ typedef struct pt_accumulate_info {
     const uint32_t *tile_samples;
     uint32_t tile_count; /**< number of tiles, or 0 if tile_samples is NULL */
     uint32_t reserved2;  /**< 0 */
+    /** PT_OK if sample_count is exhausted first, or all pixels have sample_limit samples.
+     *
+     * The error is checked at the numbers of samples that pt_next_check returns. With PT_SAMPLING_ADAPTIVE it is also
+     * checked after each round of sampling. So with the same sample_limit, the final samples of each pixel do not
+     * depend on the split over calls, devices and saved films. */
+    pt_stopping stopping;
 } pt_accumulate_info;
 
 /** Values of pt_image.quantity. */
@@ -485,7 +493,8 @@ PT_API pt_result pt_prepare(pt_context *context);
  * The bits of the sum do not depend on how samples are split over calls. Samples more than 2^20 times as bright as the
  * brightest emission are left out and counted (pt_stats.rejected_samples).
  *
- * One thread at a time. PT_CANCELLED and PT_TARGET_REACHED: fewer samples were taken, all of them complete.
+ * One thread at a time. PT_CANCELLED, PT_TARGET_REACHED, PT_LIMIT_REACHED: fewer samples were taken, all of them
+ * complete.
  * PT_ERROR_UNSUPPORTED: the scene exceeds the device's limits. After a failure complete samples are kept, and
  * pt_stats.sample_count is their number. The number is 0 if several devices had begun samples that they could not
  * complete. */

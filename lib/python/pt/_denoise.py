@@ -38,30 +38,27 @@ def denoise(first: npt.ArrayLike, second: npt.ArrayLike, albedo: npt.ArrayLike, 
     shape = images[0].shape
     if len(shape) != 3 or shape[2] != 3 or any(image.shape != shape for image in images):
         raise ValueError(f"shapes = {[image.shape for image in images]}: must all be (height, width, 3)")
-    result = np.empty(shape, np.float32)
-    info = structs.pt_denoise_info(width=shape[1], height=shape[0], any_device=any_device, denoised=_pointer(result),
-                                   library=c_string(find_library() if library_path is None else os.fspath(library_path)))
-    _set_images(info, images)
-    error, loaded = structs.pt_error_estimate(), library()
-    checked(loaded, loaded.pt_denoise(info, error))
-    return result, error_estimate_of(error)
+    return denoise_rounds(lambda _: images, shape, 1, {}, library_path, any_device)
 
 
 def denoise_rounds(render: Callable[[int], Sequence[Pixels] | None], shape: tuple[int, ...], samples: int,
-                   target_error: float) -> tuple[Pixels, ErrorEstimate]:
+                   stopping: dict[str, float], library_path: str | os.PathLike[str] | None = None,
+                   any_device: bool = False) -> tuple[Pixels, ErrorEstimate]:
     """`render(count)` returns the images of denoise(), which must stay alive, or None to stop."""
     result, guard = np.empty(shape, np.float32), CallbackGuard()
-    info = structs.pt_denoise_info(width=shape[1], height=shape[0], denoised=_pointer(result), library=c_string(find_library()))
+    info = structs.pt_denoise_info(width=shape[1], height=shape[0], any_device=any_device, denoised=_pointer(result),
+                                   library=c_string(find_library() if library_path is None else os.fspath(library_path)))
 
     def add_round(_: object, count: int) -> int:
         info.first = None  # The library refuses a round that raises.
         images = render(count)
         if images is not None:
-            _set_images(info, images)
+            info.first, info.second, info.albedo, info.normal = map(_pointer, images)
         return int(images is None)
 
     guard.watch(add_round)
-    rounds = structs.pt_rounds_info(sample_count=samples, target_error=target_error, render=structs.pt_round_fn(add_round))
+    rounds = structs.pt_rounds_info(sample_count=samples, render=structs.pt_round_fn(add_round),
+                                     stopping=structs.pt_stopping(**stopping))
     error, loaded = structs.pt_error_estimate(), library()
     with guard:
         ended = loaded.pt_denoise_rounds(rounds, info, error)
@@ -72,10 +69,6 @@ def denoise_rounds(render: Callable[[int], Sequence[Pixels] | None], shape: tupl
 
 def _pointer(image: Pixels) -> Any:
     return image.ctypes.data_as(ctypes.POINTER(ctypes.c_float))
-
-
-def _set_images(info: structs.pt_denoise_info, images: Sequence[Pixels]) -> None:
-    info.first, info.second, info.albedo, info.normal = map(_pointer, images)
 
 
 def find_library() -> str | None:

@@ -3,15 +3,13 @@ from __future__ import annotations
 import ctypes
 import struct
 import zlib
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from pt import _structs as structs
 from pt._library import checked, library
-
-FIELDS: Final[dict[str, Any]] = dict(structs.pt_display_info._fields_)
 
 
 def automatic_exposure(radiance: npt.ArrayLike) -> float:
@@ -35,11 +33,8 @@ def to_pixels(radiance: npt.ArrayLike, exposure: float | None, dtype: Any = np.u
     info = structs.pt_display_info(
         bits=8 * pixels.itemsize, automatic_exposure=exposure is None, exposure=exposure or 0.0,
         pixel_count=colors.size // 3, radiance=_floats(colors), alpha=None if shares is None else _floats(shares),
-        pixels=pixels.ctypes.data, size_bytes=pixels.nbytes)
-    for name, value in display.items():
-        if name not in FIELDS:
-            raise TypeError(f"{name}: unknown property of a display")
-        setattr(info, name, FIELDS[name](*value) if isinstance(value, (tuple, list)) else value)
+        pixels=pixels.ctypes.data, size_bytes=pixels.nbytes,
+        **{name: tuple(value) if isinstance(value, list) else value for name, value in display.items()})
     loaded = library()
     checked(loaded, loaded.pt_display(info))
     return pixels

@@ -161,12 +161,13 @@ class SceneFileFlag(enum.IntFlag):
 
 
 class Result(enum.IntEnum):
-    """The result of a call. Errors are raised (see Error), so calls return one of the first four."""
+    """The result of a call. Errors are raised (see Error), so calls return one of the first five."""
 
     OK = 0  # done
     CANCELLED = 1  # the caller stopped the call
     TARGET_REACHED = 2  # the target error is reached
     PENDING = 3  # samples are still being taken (pt/async.h)
+    LIMIT_REACHED = 4  # the time limit is reached
     ERROR_INVALID_ARGUMENT = -1  # a field, size or pointer breaks a rule of this header
     ERROR_INVALID_SCENE = -2  # a scene breaks a rule
     ERROR_INVALID_STATE = -3  # another call must come first or must end first

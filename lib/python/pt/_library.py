@@ -55,7 +55,6 @@ PARAMETERS: Final[dict[str, list[Any]]] = {
                    POINTER(c_uint32)],
     "pt_display": [POINTER(structs.pt_display_info)],
     "pt_automatic_exposure": [POINTER(c_float), c_uint64, POINTER(c_double)],
-    "pt_denoise": [POINTER(structs.pt_denoise_info), POINTER(structs.pt_error_estimate)],
     "pt_denoise_rounds": [POINTER(structs.pt_rounds_info), POINTER(structs.pt_denoise_info), POINTER(structs.pt_error_estimate)],
 }
 NOT_RESULTS: Final[dict[str, Any]] = {

@@ -72,29 +72,21 @@ class Override:
 
 @dataclass(frozen=True)
 class Display:
-    """exposure   stops; None: automatic
+    """exposure   stops, or "auto"
     tonemap    curve from radiance to light, one of CURVES
     gamma      encodes with the power 1 / gamma; None: the sRGB curve
     white      R, G, B of light that is shown as grey; None: (1, 1, 1)
     """
 
-    exposure: float | None = None
+    exposure: float | str = "auto"
     tonemap: str = CURVES[0]
     gamma: float | None = None
     white: Vector | None = None
 
     def fields(self) -> dict[str, Any]:
         """Returns arguments of Image.to_srgb8."""
-        given = {name: value for name, value in vars(self).items() if name != "tonemap" and value is not None}
+        given = {name: value for name, value in vars(self).items() if not isinstance(value, (str, type(None)))}
         return {"curve": Curve[str(self.tonemap).upper()], **given}
-
-    def _section(self) -> dict[str, Any]:
-        return {**vars(self), "exposure": "auto" if self.exposure is None else self.exposure}
-
-    @classmethod
-    def _of_section(cls, section: Mapping[str, Any]) -> Display:
-        values: dict[str, Any] = {**section, "exposure": None if section["exposure"] == "auto" else section["exposure"]}
-        return cls(**values)
 
 
 @dataclass(frozen=True)
@@ -224,13 +216,10 @@ def _camera(read: structs.pt_camera) -> Camera:
 
 
 def _display(read: structs.pt_display_info) -> Display:
-    """A number that is 0 has its default."""
-    given: dict[str, Any] = {}
-    for each in fields(Display)[2:]:
-        value = getattr(read, each.name)
-        if value if isinstance(value, float) else any(value):
-            given[each.name] = value if isinstance(value, float) else tuple(value)
-    return Display(None if read.automatic_exposure else read.exposure, CURVES[read.curve], **given)
+    others: dict[str, Any] = {each.name: getattr(read, each.name) for each in fields(Display)[2:]}
+    given: dict[str, Any] = {name: value if isinstance(value, float) else tuple(value)
+                             for name, value in others.items() if np.any(value)}
+    return Display("auto" if read.automatic_exposure else read.exposure, CURVES[read.curve], **given)
 
 
 def _settings(read: structs.pt_render) -> RenderSettings:

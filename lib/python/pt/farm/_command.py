@@ -78,7 +78,7 @@ def write_pictures(film: Film, arguments: argparse.Namespace, display: Display, 
         write_film(film, numbered(arguments.film, frame))
     if not arguments.output:
         return
-    options = [word for name, value in display._section().items() if value is not None
+    options = [word for name, value in vars(display).items() if value is not None
                for word in (f"--{name}", ",".join(map(repr, value)) if isinstance(value, tuple) else str(value))]
     options += ["--alpha"] if arguments.alpha else []
     options += [word for name in arguments.output for word in ("-o", numbered(name, frame))]

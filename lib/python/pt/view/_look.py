@@ -22,8 +22,8 @@ class Look:
     """
 
     def __init__(self, display: Display, stops: float = 0.0) -> None:
-        self.is_automatic = display.exposure is None
-        self.stops = stops if display.exposure is None else display.exposure
+        self.is_automatic = display.exposure == "auto"
+        self.stops = stops if self.is_automatic else float(display.exposure)
         self._fields = display.fields()
         self.pixels([0.0, 0.0, 0.0])  # raises for values that the library refuses
 

@@ -294,7 +294,7 @@ class Renderer:
         self._emit({**kept, **facts, "name": self._source.path.name, "samples": self._count, "seconds": self._seconds, "playing": self._playing,
                     "moving": self._moving, "layer": self._layer, "history": list(self._history),
                     "size": [self._settings.width, self._settings.height], "camera": camera._section(),
-                    "first_camera": self._shown.camera._section(), "display": self._shown.display._section(),
+                    "first_camera": self._shown.camera._section(), "display": vars(self._shown.display),
                     "max_path_length": self._settings.max_path_length, "sampler": name_of(self._settings.sampler),
                     "estimator": name_of(self._settings.estimator), "revision": self._revision,
                     "course": self._course.state if self._course else None, "is_course": self._course is not None,

@@ -150,7 +150,7 @@ class Server:
             await connection.prepare(request)
             assert self.show
             self.show.watch(True)
-            page = Page(connection, Look(Display._of_section(self.show.frame.state["display"])))
+            page = Page(connection, Look(Display(**self.show.frame.state["display"])))
             sender = self._loop.create_task(self._send(page))
             async for message in connection:
                 if message.type == WSMsgType.TEXT:
@@ -200,8 +200,7 @@ class Server:
             if "next" in message:
                 page.wanted.set()
             elif "display" in message:
-                shown = {**self.show.frame.state["display"], **message["display"]}
-                page.look = Look(Display._of_section(shown), page.look.stops)
+                page.look = Look(Display(**{**self.show.frame.state["display"], **message["display"]}), page.look.stops)
                 self._announce()
             elif "pixel" in message:
                 x, y = (_whole(each, 0, MOST_PIXELS) for each in message["pixel"])

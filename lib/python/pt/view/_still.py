@@ -19,7 +19,7 @@ class Still:
             **facts_of(film.error_estimate()), "name": name, "samples": stats.mean_sample_count, "size": [info.columns, info.rows],
             "width": info.columns, "height": info.rows, "rejected": stats.rejected_samples,
             "spoilt": 0 if self._spoilt is None else int(self._spoilt.sum()), "device": info.device,
-            "display": Display()._section(), "max_path_length": info.max_path_length,
+            "display": vars(Display()), "max_path_length": info.max_path_length,
             "sampler": name_of(info.sampler), "estimator": name_of(info.estimator), "history": [], "faults": []}
         self.frame = Frame(0, {}, None)
         self.change()
