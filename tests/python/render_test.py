@@ -18,7 +18,7 @@ class Render(unittest.TestCase):
 
     def test_it_is_what_the_calls_of_the_library_give(self):
         with pt.Context() as context:
-            context.set_render(settings(max_path_length=4))
+            context.set_render(settings(max_path_length=3))
             context.set_camera(self.image.camera)
             context.set_scene(self.image.scene)
             for _ in range(2):
