@@ -13,7 +13,7 @@
 namespace pt {
 
 // Must be increased with every change of the bits of samples, or of the number of samples for a target error.
-inline constexpr std::uint32_t estimator_version = 9;
+inline constexpr std::uint32_t estimator_version = 10;
 
 // Returns everything that decides the bits of samples.
 FilmIdentity identity_of(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings,

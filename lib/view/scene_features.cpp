@@ -1,6 +1,7 @@
 #include "lib/view/scene_features.h"
 
 #include "lib/tree/tree_choice.h"
+#include "lib/view/lamp.h"
 #include "lib/view/lamp_tree.h"
 #include "lib/view/lamp_tree_words.h"
 #include "lib/view/scene_blocks.h"
@@ -49,10 +50,37 @@ bool has_known_side(const CurvedPlane &plane) {
     return static_cast<float>(plane.offset) != 0.0F;
 }
 
+// Whether lamps light the middle of an open scene more than skies do. Most noise is then that of the lamps' shadows,
+// which branches share. Lamps of the tree do not count.
+bool lamps_outshine_skies(const KernelSurfaces &surfaces, const std::vector<Material> &materials,
+                          const SphereTree *tree, const Camera &camera) {
+    const std::span<const SeenSphere> spheres = surfaces.spheres;
+    const auto emission = [&](const SeenSphere &sphere) { return double{mean(materials[sphere.material].emission)}; };
+    const auto others = spheres.subspan(surfaces.lamp_count + surfaces.sky_count);
+    if (surfaces.planes.size() > 1 || (!tree && others.empty()))
+        return false;
+    glm::dvec3 middle{0.0};
+    if (tree)
+        middle = 0.5 * (tree->bounds().low + tree->bounds().high) - camera.position;
+    else
+        for (const SeenSphere &sphere : others)
+            middle += sphere.open / static_cast<double>(others.size());
+
+    double lamps = 0.0;
+    for (const SeenSphere &lamp : spheres.first(surfaces.lamp_count)) {
+        const double sine = std::min(lamp.radius / glm::length(lamp.open - middle), 1.0);
+        lamps += emission(lamp) * sine * sine;
+    }
+    double skies = 0.0;
+    for (const SeenSphere &sky : spheres.subspan(surfaces.lamp_count, surfaces.sky_count))
+        skies += emission(sky);
+    return skies > 0.0 && lamps > skies;
+}
+
 // These counts need the least time for a given error. Empirical.
-std::uint32_t branches_among(std::size_t sphere_count, std::uint32_t max_path_length, bool gloss) {
+std::uint32_t branches_among(std::size_t sphere_count, std::uint32_t max_path_length, bool gloss, bool shadows) {
     constexpr std::size_t very_many = 4096;
-    if (sphere_count >= very_many && max_path_length > 3)
+    if ((sphere_count >= very_many && max_path_length > 3) || (!gloss && shadows))
         return 1;
     return sphere_count >= default_tree_from || !gloss ? 2 : 4;
 }
@@ -103,7 +131,6 @@ Features features_of(const SeenScene &distinct, const KernelSurfaces &surfaces, 
     features[gpu::ID_SPHERE_COUNT] = static_cast<std::uint32_t>(surfaces.spheres.size());
     features[gpu::ID_PLANE_COUNT] = static_cast<std::uint32_t>(surfaces.planes.size());
     const std::size_t sphere_count = scene.scene.spheres.size() + (tree ? tree->sphere_count() : 0);
-    features.most_branches = branches_among(sphere_count, render.max_path_length, scene.gloss);
     features[gpu::ID_TREE] = tree != nullptr;
     for (const LookColumn &look : look_columns)
         features[look.constant] = tree && tree->has(look.column);
@@ -143,6 +170,8 @@ Features features_of(const SeenScene &distinct, const KernelSurfaces &surfaces, 
     features[gpu::ID_SAMPLER] = render.sampler;
     features[gpu::ID_COVERAGE] = render.coverage;
     features[gpu::ID_GLOSS] = scene.gloss;
+    const bool shadows = samples_lamps(features) && lamps_outshine_skies(surfaces, scene.scene.materials, tree, camera);
+    features.most_branches = branches_among(sphere_count, render.max_path_length, scene.gloss, shadows);
     // The tree has positions at time 0.
     const bool tree_is_late = tree && tree->moves() && camera.shutter_open > 0.0;
     features[gpu::ID_MOTION] = scene.moves && (camera.shutter_close > camera.shutter_open || tree_is_late);

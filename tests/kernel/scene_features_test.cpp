@@ -241,4 +241,51 @@ TEST(FeatureMotion, IsWhetherAHugeBallMoves) {
     EXPECT_TRUE(moves({1e-9, 0, 0}));
 }
 
+// Eight small balls about a middle, a lamp of radius 10 at distance 50, and a sky. In the middle the lamp's light is a
+// 25th of its radiance, 100.
+struct OpenScene {
+    float sky = 3.9F;
+    float specular = 0.0F;
+    std::vector<pt::Plane> planes = {};
+    std::uint32_t estimator = PT_ESTIMATOR_MIS;
+    double ball_radius = 0.25;
+};
+
+std::uint32_t branches_in(const OpenScene &open, bool with_tree) {
+    const glm::dvec3 middle = {7, 2, -40};
+    std::vector<pt_sphere> spheres = {{{middle.x, middle.y + 50, middle.z}, 10, {0, 0, 0}, shining, 0},
+                                      {{0, 0, 0}, 1000, {0, 0, 0}, 2, 0}};
+    for (int i = 0; i < 8 && open.ball_radius > 0.0; ++i) {
+        const glm::dvec3 corner = middle + 2.0 * glm::dvec3(i % 2, i / 2 % 2, i / 4) - 1.0;
+        spheres.push_back({{corner.x, corner.y, corner.z}, open.ball_radius, {0, 0, 0}, dark, 0});
+    }
+    const std::vector<pt::Material> materials = {{glm::vec3(0.5F), glm::vec3(open.specular), glm::vec3(0), 9},
+                                                 {glm::vec3(0), glm::vec3(0), glm::vec3(100), 0},
+                                                 {glm::vec3(0), glm::vec3(0), glm::vec3(open.sky), 0}};
+    const pt::PreparedScene prepared =
+        prepared_scene_of({materials, {spheres, {}}, open.planes}, with_tree ? 1 : UINT32_MAX);
+    EXPECT_EQ(prepared.tree != nullptr, with_tree);
+    const pt::Camera camera{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, 0, 1};
+    const pt::View view = pt::view_of(prepared, camera, {4, 4, 3, 0, 0, open.estimator, PT_SAMPLER_RANDOM, 0, 4});
+    EXPECT_EQ(view.features[pt::gpu::ID_SKY_COUNT], open.sky > 0.0F ? 1U : 0U);
+    EXPECT_EQ(view.features.walked_lamps(), 1U);
+    return pt::branch_count(view.features);
+}
+
+TEST(BranchCount, IsOneIfALampOutshinesTheSkyAndNothingIsGlossy) {
+    const pt::Plane floor = {{0, 1, 0}, 9, dark};
+    const pt::Plane wall = {{0, 0, 1}, 900, dark};
+    for (const bool with_tree : {false, true}) {
+        EXPECT_EQ(branches_in({}, with_tree), 1U);
+        EXPECT_EQ(branches_in({.planes = {floor}}, with_tree), 1U);
+        EXPECT_EQ(branches_in({.estimator = PT_ESTIMATOR_LIGHT}, with_tree), 1U);
+        EXPECT_EQ(branches_in({.sky = 4.1F}, with_tree), 2U);
+        EXPECT_EQ(branches_in({.sky = 0.0F}, with_tree), 2U) << "no sky";
+        EXPECT_EQ(branches_in({.specular = 0.2F}, with_tree), 4U);
+        EXPECT_EQ(branches_in({.planes = {floor, wall}}, with_tree), 2U) << "not open";
+        EXPECT_EQ(branches_in({.estimator = PT_ESTIMATOR_BSDF}, with_tree), 2U) << "finds the lamp by chance";
+    }
+    EXPECT_EQ(branches_in({.planes = {floor}, .ball_radius = 0.0}, false), 2U) << "no balls, no middle";
+}
+
 } // namespace
