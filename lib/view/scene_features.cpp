@@ -50,8 +50,8 @@ bool has_known_side(const CurvedPlane &plane) {
     return static_cast<float>(plane.offset) != 0.0F;
 }
 
-// Whether lamps light the middle of an open scene more than skies do. Most noise is then that of the lamps' shadows,
-// which branches share. Lamps of the tree do not count.
+// Whether lamps outside the tree light the middle of an open scene more than skies. Most noise is then that of shadows,
+// which branches share.
 bool lamps_outshine_skies(const KernelSurfaces &surfaces, const std::vector<Material> &materials,
                           const SphereTree *tree, const Camera &camera) {
     const std::span<const SeenSphere> spheres = surfaces.spheres;
