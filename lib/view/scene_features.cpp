@@ -50,8 +50,8 @@ bool has_known_side(const CurvedPlane &plane) {
     return static_cast<float>(plane.offset) != 0.0F;
 }
 
-// Whether lamps outside the tree light the middle of an open scene more than skies. Most noise is then that of shadows,
-// which branches share.
+// Whether lamps outside the tree light an open scene's middle over twice as much as skies. Most noise is then that of
+// shadows, which branches share.
 bool lamps_outshine_skies(const KernelSurfaces &surfaces, const std::vector<Material> &materials,
                           const SphereTree *tree, const Camera &camera) {
     const std::span<const SeenSphere> spheres = surfaces.spheres;
@@ -74,7 +74,7 @@ bool lamps_outshine_skies(const KernelSurfaces &surfaces, const std::vector<Mate
     double skies = 0.0;
     for (const SeenSphere &sky : spheres.subspan(surfaces.lamp_count, surfaces.sky_count))
         skies += emission(sky);
-    return skies > 0.0 && lamps > skies;
+    return skies > 0.0 && lamps > 2.0 * skies;
 }
 
 // These counts need the least time for a given error. Empirical.

@@ -244,7 +244,7 @@ TEST(FeatureMotion, IsWhetherAHugeBallMoves) {
 // Eight small balls about a middle, a lamp of radius 10 at distance 50, and a sky. In the middle the lamp's light is a
 // 25th of its radiance, 100.
 struct OpenScene {
-    float sky = 3.9F;
+    float sky = 1.9F;
     float specular = 0.0F;
     std::vector<pt::Plane> planes = {};
     std::uint32_t estimator = PT_ESTIMATOR_MIS;
@@ -279,7 +279,7 @@ TEST(BranchCount, IsOneIfALampOutshinesTheSkyAndNothingIsGlossy) {
         EXPECT_EQ(branches_in({}, with_tree), 1U);
         EXPECT_EQ(branches_in({.planes = {floor}}, with_tree), 1U);
         EXPECT_EQ(branches_in({.estimator = PT_ESTIMATOR_LIGHT}, with_tree), 1U);
-        EXPECT_EQ(branches_in({.sky = 4.1F}, with_tree), 2U);
+        EXPECT_EQ(branches_in({.sky = 2.1F}, with_tree), 2U);
         EXPECT_EQ(branches_in({.sky = 0.0F}, with_tree), 2U) << "no sky";
         EXPECT_EQ(branches_in({.specular = 0.2F}, with_tree), 4U);
         EXPECT_EQ(branches_in({.planes = {floor, wall}}, with_tree), 2U) << "not open";
