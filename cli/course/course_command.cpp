@@ -103,8 +103,16 @@ int check(const CourseOptions &options) {
     if (is_next)
         return check_next(kernels);
     const CourseVerdict verdict = check_step(kernels, *step);
-    std::cout << report(*step, verdict);
-    return static_cast<int>(verdict.is_right() ? ExitCode::done : ExitCode::images_differ);
+    std::cout << report(*step, verdict) << std::flush;
+    if (!verdict.is_right())
+        return static_cast<int>(ExitCode::images_differ);
+    for (auto earlier = course_steps().begin(); earlier != step; ++earlier) {
+        if (const CourseVerdict before = check_quickly(kernels, *earlier); !before.is_right()) {
+            std::cout << "but step " << earlier->name << " is " << verdict_text(before) << "\n";
+            break;
+        }
+    }
+    return static_cast<int>(ExitCode::done);
 }
 
 int run_course(const CourseOptions &options) {

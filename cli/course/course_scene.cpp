@@ -50,13 +50,47 @@ SceneFile course_floor(std::uint32_t side, std::uint32_t sample_count, const glm
                        "");
 }
 
+SceneFile lamps_above(std::uint32_t side, std::uint32_t sample_count, const glm::dvec3 &camera, const char *floor) {
+    constexpr double distance = 10.0;
+    constexpr std::array<const char *, 3> colors{"red", "green", "blue"};
+    std::string spheres;
+    for (const FloorLamp &lamp : floor_lamps())
+        spheres += concat(spheres.empty() ? "" : ", ", R"({"center": )", numbers(distance * lamp.direction),
+                          R"(, "radius": )", formatted("%.17g", distance * std::sin(lamp.half_angle)),
+                          R"(, "material": ")", colors.at(lamp.channel), "\"}");
+    return course_floor(side, sample_count, camera,
+                        concat(R"(
+        "materials": {"floor": )",
+                               floor, R"(, "red": {"emission": [1, 0, 0]}, "green": {"emission": [0, 1, 0]},
+                      "blue": {"emission": [0, 0, 1]}},
+        "spheres": [)",
+                               spheres, R"(],
+        "planes": [{"normal": )",
+                               numbers(floor_normal), R"(, "offset": 0, "material": "floor"}])"));
+}
+
 void add_light(Channels &light, const glm::dvec3 &direction, double weight) {
     for (const FloorLamp &lamp : floor_lamps())
         if (glm::dot(direction, lamp.direction) > std::cos(lamp.half_angle))
             light[lamp.channel] += weight;
 }
 
+// A point of a spherical Fibonacci lattice (Swinbank and Purser 2006).
+glm::dvec3 lattice_direction(int i, int count) {
+    const double height = 1.0 - (2.0 * i + 1.0) / count;
+    const double angle = 2.0 * pi * i / std::numbers::phi;
+    const double radius = std::sqrt(1.0 - height * height);
+    return {radius * std::cos(angle), radius * std::sin(angle), height};
+}
+
 constexpr double ball_share = 0.01; // (r / R)^2 of lamp_in_a_ball()
+
+// The ball's center has height 1.
+constexpr double ball_begin = -1.5;
+constexpr double ball_motion = 2.0;
+constexpr double ball_radius = 0.8;
+constexpr double overhead_half_angle = pi / 12.0;
+const glm::dvec3 ball_camera(-std::sin(pi / 3.0), std::cos(pi / 3.0), 0.0); // direction to the camera
 
 constexpr std::uint32_t disc_side = 32;
 constexpr glm::dvec2 disc_center{-2.2, -1.05};
@@ -65,21 +99,11 @@ constexpr glm::dvec2 disc_motion{5.0, 2.5};
 } // namespace
 
 SceneFile lamps_above_a_floor(std::uint32_t side, std::uint32_t sample_count) {
-    constexpr double distance = 10.0;
-    constexpr std::array<const char *, 3> colors{"red", "green", "blue"};
-    std::string spheres;
-    for (const FloorLamp &lamp : floor_lamps())
-        spheres += concat(spheres.empty() ? "" : ", ", R"({"center": )", numbers(distance * lamp.direction),
-                          R"(, "radius": )", formatted("%.17g", distance * std::sin(lamp.half_angle)),
-                          R"(, "material": ")", colors.at(lamp.channel), "\"}");
-    return course_floor(side, sample_count, floor_normal,
-                        concat(R"(
-        "materials": {"floor": {"diffuse": 1}, "red": {"emission": [1, 0, 0]}, "green": {"emission": [0, 1, 0]},
-                      "blue": {"emission": [0, 0, 1]}},
-        "spheres": [)",
-                               spheres, R"(],
-        "planes": [{"normal": )",
-                               numbers(floor_normal), R"(, "offset": 0, "material": "floor"}])"));
+    return lamps_above(side, sample_count, floor_normal, R"({"diffuse": 1})");
+}
+
+SceneFile lamps_above_a_glossy_floor() {
+    return lamps_above(32, 64, floor_lamps()[1].direction, R"({"specular": 1, "glossiness": 8})");
 }
 
 glm::dvec3 to_the_normals_side(const glm::dvec3 &direction, const glm::dvec3 &normal) {
@@ -94,33 +118,45 @@ glm::dvec3 unturned(const glm::dvec3 &direction, const glm::dvec3 &) {
     return direction;
 }
 
-// Points of a spherical Fibonacci lattice (Swinbank and Purser 2006).
 Channels lamplight(const Turn &turn, const Weight &weight) {
     constexpr int count = 1 << 16;
     Channels light{};
     for (int i = 0; i < count; ++i) {
-        const double height = 1.0 - (2.0 * i + 1.0) / count;
-        const double angle = 2.0 * pi * i / std::numbers::phi;
-        const double radius = std::sqrt(1.0 - height * height);
-        const glm::dvec3 direction = turn({radius * std::cos(angle), radius * std::sin(angle), height}, floor_normal);
+        const glm::dvec3 direction = turn(lattice_direction(i, count), floor_normal);
         add_light(light, direction, weight(glm::dot(direction, floor_normal)) / count);
     }
     return light;
 }
 
-Channels lamplight_of_equal_numbers(double first, double last) {
-    constexpr int count = 1 << 14;
+glm::dvec3 mirrored(const glm::dvec3 &ray, const glm::dvec3 &normal) {
+    return glm::reflect(ray, normal);
+}
+
+glm::dvec3 turned_back(const glm::dvec3 &ray, const glm::dvec3 &) {
+    return -ray;
+}
+
+glm::dvec3 along_normal(const glm::dvec3 &, const glm::dvec3 &normal) {
+    return normal;
+}
+
+Channels gloss_of_lamps(const Turn &axis_of) {
+    constexpr int count = 1 << 16;
+    const glm::dvec3 axis = axis_of(-floor_lamps()[1].direction, floor_normal);
     Channels light{};
     for (int i = 0; i < count; ++i) {
-        const double number = (i + 0.5) / count;
-        const double height = first + (last - first) * number;
-        const double radius = std::sqrt(1.0 - height * height);
-        const double angle = 2.0 * pi * number;
-        const glm::dvec3 direction =
-            to_the_normals_side({radius * std::cos(angle), radius * std::sin(angle), height}, floor_normal);
-        add_light(light, direction, 2.0 * glm::dot(direction, floor_normal) / count);
+        const glm::dvec3 direction = to_the_normals_side(lattice_direction(i, count), floor_normal);
+        const double lobe = std::pow(std::max(glm::dot(direction, axis), 0.0), floor_glossiness);
+        add_light(light, direction, (floor_glossiness + 2.0) * lobe * glm::dot(direction, floor_normal) / count);
     }
     return light;
+}
+
+Channels lamp_solid_angles() {
+    Channels angles{};
+    for (const FloorLamp &lamp : floor_lamps())
+        angles[lamp.channel] = 2.0 * pi * (1.0 - std::cos(lamp.half_angle));
+    return angles;
 }
 
 double red_lamp_cosine() {
@@ -139,7 +175,8 @@ SceneFile floor_under_the_sky() {
                         concat(R"(
         "materials": {"floor": {"diffuse": [1, 0, 0.5], "specular": [0, 1, 0], "glossiness": 8, "emission": [0, 0, 1]},
                       "sky": {"emission": [1, 1, 0]}},
-        "spheres": [{"center": [0, 0, 0], "radius": 1000, "material": "sky"}],
+        "spheres": [{"center": [0, 0, 0], "radius": 1000, "material": "sky"},
+                    {"center": [5, 10, 10], "radius": 0.02, "material": "sky"}],
         "planes": [{"normal": )",
                                numbers(floor_normal), R"(, "offset": 0, "material": "floor"}])"));
 }
@@ -175,6 +212,55 @@ SceneFile shadow() {
         "spheres": [{"center": [0, 8, 0], "radius": 1, "material": "lamp"},
                     {"center": [0, 4, 0], "radius": 1, "material": "black"}],
         "planes": [{"normal": [0, 1, 0], "offset": 0, "material": "floor"}])");
+}
+
+SceneFile ball_before_camera_and_lamp() {
+    return course_floor(32, 64, 20.0 * ball_camera,
+                        concat(R"(
+        "materials": {"floor": {"diffuse": 1}, "lamp": {"emission": [1, 0, 0]}, "sky": {"emission": [0, 1, 0]},
+                      "ball": {"emission": [0, 0, 1]}},
+        "spheres": [{"center": [0, 100, 0], "radius": )",
+                               formatted("%.17g", 100.0 * std::sin(overhead_half_angle)), R"(, "material": "lamp"},
+                    {"center": )",
+                               numbers({ball_begin, 1.0, 0.0}), R"(, "radius": )", formatted("%.17g", ball_radius),
+                               R"(, "motion": )", numbers({ball_motion, 0.0, 0.0}), R"(, "material": "ball"}],
+        "planes": [{"normal": [0, 1, 0], "offset": 0, "material": "floor"},
+                   {"normal": [0, -1, 0], "offset": 1000, "material": "sky"}])"));
+}
+
+FloorLight light_below_the_ball() {
+    constexpr int count = 1 << 12;
+    const auto hides = [](double time, const glm::dvec3 &direction) {
+        const glm::dvec3 ball(ball_begin + time * ball_motion, 1.0, 0.0);
+        const double along = glm::dot(ball, direction);
+        return along > 0.0 && glm::dot(ball, ball) - along * along < ball_radius * ball_radius;
+    };
+    const auto light_at = [&](double time) {
+        Channels light{};
+        for (int i = 0; i < count; ++i) {
+            const glm::dvec3 up(0.0, 1.0, 0.0);
+            const glm::dvec3 direction = to_the_normals_side(lattice_direction(i, count), up);
+            const double height = direction.y;
+            const bool is_lamp = height > std::cos(overhead_half_angle);
+            light.at(hides(time, direction) ? 2 : is_lamp ? 0 : 1) += 2.0 * height / count;
+        }
+        return light;
+    };
+    const auto mean_light = [&](double first) {
+        constexpr int times = 64;
+        Channels mean{};
+        for (int i = 0; i < times; ++i) {
+            const Channels light = light_at(first + (1.0 - first) * (i + 0.5) / times);
+            for (std::size_t channel = 0; channel < light.size(); ++channel)
+                mean.at(channel) += light.at(channel) / times;
+        }
+        return mean;
+    };
+    const double hidden = ((ball_camera.x + ball_radius) / ball_camera.y - ball_begin) / ball_motion;
+    const auto seen = [&](const Channels &light) {
+        return Channels{(1.0 - hidden) * light[0], (1.0 - hidden) * light[1], (1.0 - hidden) * light[2] + hidden};
+    };
+    return {seen(mean_light(hidden)), seen(light_at(0.0)), seen(mean_light(0.0))};
 }
 
 SceneFile disc(bool moves) {

@@ -29,18 +29,25 @@ glm::dvec3 unturned(const glm::dvec3 &direction, const glm::dvec3 &normal);
 // Means of the picture, by quadrature over the sphere.
 Channels lamplight(const Turn &turn, const Weight &weight);
 
-// The means for a kernel that uses one number for both dimensions. Its directions lie on a spiral of one turn, with
-// heights from `first` to `last`.
-Channels lamplight_of_equal_numbers(double first, double last);
+// The same scene with a glossy floor, seen from a green lamp. A mirror would show a blue one.
+SceneFile lamps_above_a_glossy_floor();
+
+// Means of its picture if lobes are about axis_of(ray's direction, normal), by quadrature.
+Channels gloss_of_lamps(const Turn &axis_of);
+glm::dvec3 mirrored(const glm::dvec3 &ray, const glm::dvec3 &normal);
+glm::dvec3 turned_back(const glm::dvec3 &ray, const glm::dvec3 &normal);
+glm::dvec3 along_normal(const glm::dvec3 &ray, const glm::dvec3 &normal);
 
 inline constexpr double lamp_count = 5.0;
 double red_lamp_cosine(); // cosine of half the angle of the lamp's cone about the normal
 
+Channels lamp_solid_angles(); // of a lamp of each color
+
 // Exact values by form factors of spheres above a plane (Snyder 1996).
 Channels right_lamplight();
 
-// The sky is yellow. The tilted floor reflects red diffusely and green in a lobe. It emits blue, which the sky lacks,
-// so the blue channel shows the floor's own light, 1. Each pixel has one sample.
+// The sky is yellow, and so is a tiny lamp. The tilted floor reflects red diffusely and green in a lobe. It emits blue,
+// which the sky lacks, so the blue channel shows the floor's own light, 1. Each pixel has one sample.
 SceneFile floor_under_the_sky();
 inline constexpr double floor_glossiness = 8.0;
 
@@ -61,6 +68,18 @@ inline constexpr Channels disc_emission{4.0, 0.5, 0.1};
 
 // Cosine between the normal and the ray of the picture's middle pixel.
 double disc_cosine();
+
+// A blue ball moves before a floor's point. First it hides the point from the camera, then a red lamp from the point.
+// At all times it hides one of them. The sky is green.
+SceneFile ball_before_camera_and_lamp();
+
+struct FloorLight {
+    Channels right;
+    Channels reflected_at_0;        // only the camera's rays have the time of the sample
+    Channels reflected_at_any_time; // reflected rays have times of their own
+};
+
+FloorLight light_below_the_ball(); // by quadrature
 
 struct DiscSample {
     glm::dvec2 place; // in the pixel

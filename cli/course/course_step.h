@@ -13,13 +13,16 @@ struct CourseStep {
     std::string name; // the part of the exercise, such as "6a"
     std::string title;
     unsigned points;
-    std::function<std::vector<Measured>(CourseKernels &)> measure;
-    std::vector<Pattern> (*patterns)();    // takes a tenth of a second for some steps
+    std::vector<std::vector<Measured> (*)(CourseKernels &)> measure; // in stages, until a mistake has a name
+    std::vector<Pattern> (*patterns)();                              // takes a tenth of a second for some steps
     std::function<SceneFile()> same_light; // scene for the comparison with the library's kernel, or empty
 };
 
 const std::vector<CourseStep> &course_steps();
 
 CourseVerdict check_step(CourseKernels &kernels, const CourseStep &step);
+
+// Judges the first stage.
+CourseVerdict check_quickly(CourseKernels &kernels, const CourseStep &step);
 
 } // namespace cli

@@ -26,9 +26,8 @@ std::vector<Measured> measure_directions(CourseKernels &kernels) {
 // Each mistake is predicted with and without throughput.
 std::vector<Pattern> direction_patterns() {
     const Weight one = [](double cosine) { return no_weight_below(cosine, 1.0); };
-    const double above = 1.0 - std::cos(std::numbers::pi / 6.0);
-    const double beside = 2.0 * (1.0 - std::cos(25.0 / 180.0 * std::numbers::pi));
-    const Channels solid_angles{above, beside, beside};
+    const Channels angles = lamp_solid_angles();
+    const Channels shares{angles[0] / two_pi, 2.0 * angles[1] / two_pi, 2.0 * angles[2] / two_pi};
     const auto sum = [](double albedo, int vertices) {
         double light = 0.0;
         for (int vertex = 0; vertex < vertices; ++vertex)
@@ -39,7 +38,7 @@ std::vector<Pattern> direction_patterns() {
     for (const bool has_throughput : {false, true}) {
         const double albedo = has_throughput ? 0.5 : 1.0;
         const Weight weight = has_throughput ? scaled_cosine(2.0) : one;
-        const Channels right = has_throughput ? right_lamplight() : solid_angles;
+        const Channels right = has_throughput ? right_lamplight() : shares;
         const Range paths = sum(albedo, ball_length);
         const auto add = [&](const char *name, const char *hint, const Values &lamps, Range ball, Range own) {
             patterns.push_back({name, hint, joined(lamps, {ball, own})});
@@ -65,7 +64,12 @@ std::vector<Measured> measure_throughput(CourseKernels &kernels) {
     std::vector<Measured> measured = means(kernels.edited(floor_under_the_sky()), "floor under a sky");
     for (const Measured &mean : floor_means(kernels, PT_ESTIMATOR_UNIFORM))
         measured.push_back(mean);
-    measured.push_back(ball_mean(kernels, PT_ESTIMATOR_UNIFORM));
+    return measured;
+}
+
+std::vector<Measured> measure_lobe(CourseKernels &kernels) {
+    std::vector<Measured> measured = means(kernels.edited(lamps_above_a_glossy_floor()), "glossy floor");
+    measured.insert(measured.begin(), ball_mean(kernels, PT_ESTIMATOR_UNIFORM));
     return measured;
 }
 
@@ -79,40 +83,49 @@ std::vector<Pattern> throughput_patterns() {
                        joined({exactly(scale), exactly(scale), exactly(1.0)},
                               joined(exact(lamps, scale), {exactly(light_in_a_ball(scale * q, scale * c * c))}))};
     };
-    return {scaled("", "", 1.0),
-            scaled("missing 2 pi",
-                   "Divide the light of a direction by its density, which is 1 / (2 pi) for uniform directions.",
-                   1.0 / two_pi),
-            scaled("1.98 pi", "The density of uniform directions is 1 / (2 pi); is a constant rounded?", 0.99),
-            scaled("the sphere's density", "Directions on a hemisphere have twice the density of those on the sphere.",
-                   2.0),
-            {"n + 1", "The normalization of this reflectance is (n + 2) / (2 pi), with the cosine.",
-             joined({exactly(1.0), exactly((n + 1.0) / (n + 2.0)), exactly(1.0)},
-                    joined(exact(lamps), {exactly(light_in_a_ball(q, c * c))}))},
-            {"missing 1 / pi", "The diffuse part of the reflectance is the color over pi.",
-             joined({exactly(std::numbers::pi), exactly(1.0), exactly(1.0)},
-                    joined(exact(lamps, std::numbers::pi),
-                           {exactly(light_in_a_ball(std::numbers::pi * q, std::numbers::pi * c * c))}))},
-            {"cosine twice", "The geometric term has the cosine; the reflectance does not.",
-             joined({exactly(2.0 / 3.0), exactly((n + 2.0) / (n + 3.0)), exactly(1.0)},
-                    joined(near(lamplight(to_the_normals_side, [](double x) { return 2.0 * x * x; })),
-                           {exactly(light_in_a_ball(2.0 / 3.0 * (1.0 - c * c * c), 2.0 / 3.0 * c * c * c))}))},
-            {"no geometric term", "Multiply by the cosine between normal and direction.",
-             joined({exactly(2.0), exactly((n + 2.0) / (n + 1.0)), exactly(1.0)},
-                    joined(near(lamplight(to_the_normals_side, [](double) { return 2.0; })),
-                           {exactly(light_in_a_ball(2.0 * (1.0 - c), 2.0 * c))}))},
-            {"throughput of the last surface alone",
-             "The throughput is a product: multiply it instead of replacing it.",
-             joined({exactly(1.0), exactly(1.0), exactly(1.0)}, joined(exact(lamps), {exactly(50.0 * q * (1.0 + c))}))},
-            {"no throughput", "Multiply emission by the throughput of the path that leads to it.",
-             joined({exactly(1.0), exactly(1.0), exactly(1.0)},
-                    joined(near(lamplight(to_the_normals_side, [](double) { return 1.0; })), {exactly(100.0 * q)}))},
-            {"emission counted twice", "Each vertex adds its emission once.",
-             joined({any_value, any_value, exactly(2.0)}, any_values(4))},
-            {"self-intersection", "Skip intersections nearer than NEAR on the surface that a ray leaves.",
-             joined({any_value, any_value, {1.0001, 1.9}}, any_values(4))},
-            {"abs(z)", "The half above a surface depends on its normal: turn directions with a negative cosine round.",
-             joined(any_values(3), joined(near(lamplight(absolute_z, scaled_cosine(2.0))), {any_value}))}};
+    const char *no_mirror = "lobe without mirror";
+    const char *to_mirror = "The lobe is about reflect(ray.direction, normal), the direction of a mirror.";
+    std::vector<Pattern> patterns{
+        scaled("", "", 1.0),
+        scaled("missing 2 pi",
+               "Divide the light of a direction by its density, which is 1 / (2 pi) for uniform directions.",
+               1.0 / two_pi),
+        scaled("1.98 pi", "The density of uniform directions is 1 / (2 pi); is a constant rounded?", 0.99),
+        scaled("the sphere's density", "Directions on a hemisphere have twice the density of those on the sphere.",
+               2.0),
+        {"n + 1", "The normalization of this reflectance is (n + 2) / (2 pi), with the cosine.",
+         joined({exactly(1.0), exactly((n + 1.0) / (n + 2.0)), exactly(1.0)},
+                joined(exact(lamps), {exactly(light_in_a_ball(q, c * c))}))},
+        {"missing 1 / pi", "The diffuse part of the reflectance is the color over pi.",
+         joined({exactly(std::numbers::pi), exactly(1.0), exactly(1.0)},
+                joined(exact(lamps, std::numbers::pi),
+                       {exactly(light_in_a_ball(std::numbers::pi * q, std::numbers::pi * c * c))}))},
+        {"cosine twice", "The geometric term has the cosine; the reflectance does not.",
+         joined({exactly(2.0 / 3.0), exactly((n + 2.0) / (n + 3.0)), exactly(1.0)},
+                joined(near(lamplight(to_the_normals_side, [](double x) { return 2.0 * x * x; })),
+                       {exactly(light_in_a_ball(2.0 / 3.0 * (1.0 - c * c * c), 2.0 / 3.0 * c * c * c))}))},
+        {"no geometric term", "Multiply by the cosine between normal and direction.",
+         joined({exactly(2.0), exactly((n + 2.0) / (n + 1.0)), exactly(1.0)},
+                joined(near(lamplight(to_the_normals_side, [](double) { return 2.0; })),
+                       {exactly(light_in_a_ball(2.0 * (1.0 - c), 2.0 * c))}))},
+        {"throughput of the last surface alone", "The throughput is a product: multiply it instead of replacing it.",
+         joined({exactly(1.0), exactly(1.0), exactly(1.0)}, joined(exact(lamps), {exactly(50.0 * q * (1.0 + c))}))},
+        {"no throughput", "Multiply emission by the throughput of the path that leads to it.",
+         joined({exactly(1.0), exactly(1.0), exactly(1.0)},
+                joined(near(lamplight(to_the_normals_side, [](double) { return 1.0; })), {exactly(100.0 * q)}))},
+        {"emission counted twice", "Each vertex adds its emission once.",
+         joined({any_value, any_value, exactly(2.0)}, any_values(4))},
+        {"self-intersection", "Skip intersections nearer than NEAR on the surface that a ray leaves.",
+         joined({any_value, any_value, {1.0001, 1.9}}, any_values(4))},
+        {"abs(z)", "The half above a surface depends on its normal: turn directions with a negative cosine round.",
+         joined(any_values(3), joined(near(lamplight(absolute_z, scaled_cosine(2.0))), {any_value}))},
+        {no_mirror, to_mirror, joined({exactly(1.0), exactly(0.0), exactly(1.0)}, joined(exact(lamps), {any_value}))}};
+    const std::size_t before = patterns.front().values.size();
+    for (Pattern &pattern : patterns)
+        pattern.values = joined(pattern.values, pattern.is_right() ? near(gloss_of_lamps(mirrored)) : any_values(3));
+    for (const Turn &axis : {Turn(turned_back), Turn(along_normal)})
+        patterns.push_back({no_mirror, to_mirror, joined(any_values(before), near(gloss_of_lamps(axis)))});
+    return patterns;
 }
 
 std::vector<Measured> measure_cosine(CourseKernels &kernels) {
@@ -126,18 +139,28 @@ std::vector<Measured> measure_cosine(CourseKernels &kernels) {
     return measured;
 }
 
+std::vector<Measured> measure_uniform_beside(CourseKernels &kernels) {
+    const Picture picture = kernels.edited(floor_under_the_sky());
+    return {{"the same, uniform", picture.deviation(0) / picture.mean("", 0).value, 0.01}};
+}
+
 std::vector<Pattern> cosine_patterns() {
     const Channels right = right_lamplight();
-    return {{"", "", joined(exact(right), {exactly(1.0), exactly(0.0)})},
+    const Range noise{0.5 * std::sqrt(1.0 / 3.0), infinity};
+    return {{"", "", joined(exact(right), {exactly(1.0), exactly(0.0), noise})},
             {"directions are still uniform", "With the estimator cosine the density must be cosine / pi.",
-             joined(exact(right), {exactly(1.0), exactly(std::sqrt(1.0 / 3.0))})},
+             joined(exact(right), {exactly(1.0), exactly(std::sqrt(1.0 / 3.0)), any_value})},
             {"cosine twice", "The density cosine / pi cancels the geometric term, which still counts here.",
              joined(near(lamplight(to_the_normals_side, [](double x) { return 4.0 * x * x; })),
-                    {exactly(4.0 / 3.0), exactly(std::sqrt(1.0 / 8.0))})},
+                    {exactly(4.0 / 3.0), exactly(std::sqrt(1.0 / 8.0)), any_value})},
             {"cosine cancelled, directions uniform", "Leave the geometric term out only if the density has it.",
-             joined(near(lamplight(to_the_normals_side, [](double) { return 1.0; })), {exactly(1.0), exactly(0.0)})},
+             joined(near(lamplight(to_the_normals_side, [](double) { return 1.0; })),
+                    {exactly(1.0), exactly(0.0), any_value})},
             {"2 pi instead of pi", "The density is cosine / pi: cosines are 1/2 in the mean over a hemisphere.",
-             joined(exact(right, 2.0), {exactly(2.0), exactly(0.0)})}};
+             joined(exact(right, 2.0), {exactly(2.0), exactly(0.0), any_value})},
+            {"ESTIMATOR is ignored",
+             "ESTIMATOR_UNIFORM keeps uniform directions, so that both pictures can be compared.",
+             joined(exact(right), {exactly(1.0), exactly(0.0), exactly(0.0)})}};
 }
 
 } // namespace cli

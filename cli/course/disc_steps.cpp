@@ -1,8 +1,10 @@
 #include "cli/course/step_parts.h"
 #include "cli/course/step_values.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <numbers>
 
 namespace cli {
@@ -10,7 +12,7 @@ namespace {
 
 // `scale` and `offset` apply to uniform places in [0, 1). With is_diagonal both coordinates are equal.
 std::vector<DiscSample> places(double scale, double offset, bool is_diagonal = false, int times = 1) {
-    constexpr int side = 16;
+    const int side = times > 1 ? 8 : 16;
     std::vector<DiscSample> samples;
     for (int time = 0; time < times; ++time) {
         for (int y = 0; y < side; ++y) {
@@ -79,22 +81,59 @@ std::vector<Pattern> filter_patterns() {
 }
 
 std::vector<Measured> measure_motion(CourseKernels &kernels) {
-    return disc_values(kernels.edited(disc(true)));
+    std::vector<Measured> measured = disc_values(kernels.edited(disc(true)));
+    SceneFile scene = ball_before_camera_and_lamp();
+    scene.render.estimator = PT_ESTIMATOR_LIGHT;
+    const Picture picture = kernels.edited(scene);
+    std::ranges::move(means(picture, "floor under a moving ball"), std::back_inserter(measured));
+    measured.push_back(picture.relative_deviation("its deviation between pixels, green", 1));
+    return measured;
 }
 
 std::vector<Pattern> motion_patterns() {
-    const std::vector<DiscSample> right = places(1.0, 0.0, false, 16);
-    const auto at = [&](double scale, double offset) {
-        std::vector<DiscSample> samples = right;
-        for (DiscSample &sample : samples)
-            sample.time = scale * sample.time + offset;
-        return disc_values(true, samples);
+    const std::vector<DiscSample> samples = places(1.0, 0.0, false, 16);
+    const auto timed = [&](const std::function<double(const DiscSample &)> &time) {
+        std::vector<DiscSample> changed = samples;
+        for (DiscSample &sample : changed)
+            sample.time = time(sample);
+        return disc_values(true, changed);
     };
-    return {{"", "", at(1.0, 0.0)},
-            {"nothing moves", "Use the spheres' positions at the sample's time.", at(0.0, 0.0)},
-            {"one time for all samples", "Each sample has its own time.", at(0.0, 0.5)},
-            {"motion about the start", "The shutter opens at time 0 and closes at 1.", at(1.0, -0.5)},
-            {"motion twice as far", "Times are from 0 to 1.", at(2.0, 0.0)}};
+    const auto at = [&](double scale, double offset) {
+        return timed([=](const DiscSample &sample) { return scale * sample.time + offset; });
+    };
+    const char *own_number = "Each sample draws a number of its own for the time.";
+    const Values right = at(1.0, 0.0);
+    const FloorLight light = light_below_the_ball();
+    const Range green = nearly(light.right[1]);
+    // Two thirds of all times have no green light. The deviation is sqrt(2) with one time a pixel, and with 64 times
+    // about an eighth, plus noise.
+    const Range own_times{0.0, 0.7};
+    const Range moving{20.0, infinity}; // softness
+    const auto disc = [](const char *name, const char *hint, const Values &values, Range deviation = any_value) {
+        return Pattern{name, hint, joined(values, {any_value, any_value, any_value, deviation})};
+    };
+    const auto outside = [&](Range middle, Range spread) {
+        return disc("time outside [0, 1)", "The shutter opens at time 0 and closes at 1.",
+                    {middle, any_value, moving, any_value, spread}, own_times);
+    };
+    const auto floor = [&](const char *name, const Values &values) {
+        return Pattern{name, "All rays of a path, to lamps too, have the time of its sample.",
+                       joined(right, joined(values, {own_times}))};
+    };
+    return {{"", "", joined(right, joined(near(light.right), {own_times}))},
+            disc("nothing moves", "Use the spheres' positions at the sample's time.", at(0.0, 0.0)),
+            disc("one time for all samples", own_number, at(0.0, 0.5)),
+            disc("one time for each pixel", own_number, any_values(5), {1.0, infinity}),
+            disc("time equal to another number", own_number, timed([](const DiscSample &s) { return s.place.x; })),
+            disc("time equal to another number", own_number, timed([](const DiscSample &s) { return s.place.y; })),
+            disc("time outside [0, 1)", "The shutter opens at time 0 and closes at 1.", at(1.0, -0.5)),
+            outside({at(1.0, 0.2)[0].least, infinity}, any_value),
+            outside(any_value, {at(1.5, -0.25)[4].least, infinity}),
+            floor("shadow rays at time 0", {nearly(light.reflected_at_0[0]), green, any_value}),
+            floor("reflected rays at time 0", {any_value, nearly(light.reflected_at_0[1]), any_value}),
+            floor("a new time for each ray", {any_value, nearly(light.reflected_at_any_time[1]), any_value}),
+            floor("a new time for each ray", {nearly(light.reflected_at_any_time[0]), green, any_value}),
+            floor("cones of lamps at another time", {exactly(0.0), green, any_value})};
 }
 
 } // namespace cli

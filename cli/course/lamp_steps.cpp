@@ -2,11 +2,14 @@
 #include "cli/course/step_values.h"
 
 #include <cmath>
+#include <numbers>
 
 namespace cli {
 namespace {
 
 constexpr double most_needed = 2.0; // limit of samples_needed(), a rule of the course
+
+constexpr const char *to_a_lamp = "Send a ray to a lamp at each surface.";
 
 SceneFile lamp_scene(const char *name) {
     SceneFile scene = course_scene(name, 16, 2, PT_ESTIMATOR_LIGHT);
@@ -46,45 +49,77 @@ std::vector<Measured> measure_lamps(CourseKernels &kernels) {
     deviation.value *= std::sqrt(floor_samples);
     deviation.bound *= std::sqrt(floor_samples);
     measured.push_back(deviation);
-    measured.push_back(ball_mean(kernels, PT_ESTIMATOR_LIGHT));
-    SceneFile dark = shadow();
-    dark.render.estimator = PT_ESTIMATOR_LIGHT;
-    measured.push_back(kernels.edited(dark).mean("full shadow", 0));
-    measured.push_back(
-        kernels.samples_needed("samples needed per library sample", lamp_scene("coursework-lamps.json")));
     return measured;
+}
+
+std::vector<Measured> measure_seen_lamps(CourseKernels &kernels) {
+    const auto picture = [&](SceneFile scene) {
+        scene.render.estimator = PT_ESTIMATOR_LIGHT;
+        return kernels.edited(scene);
+    };
+    const Picture lamp = picture(disc(false));
+    return {ball_mean(kernels, PT_ESTIMATOR_LIGHT),
+            picture(shadow()).mean("full shadow", 0),
+            {"a lamp's emission, red", lamp.at(lamp.width / 2, lamp.height / 2, 0), 1e-4},
+            picture(floor_under_the_sky()).mean("floor under a sky, red", 0)};
+}
+
+std::vector<Measured> measure_lamp_noise(CourseKernels &kernels) {
+    return {kernels.samples_needed("samples needed per library sample", lamp_scene("coursework-lamps.json"))};
 }
 
 std::vector<Pattern> lamp_patterns() {
     const Channels right = right_lamplight();
+    const Channels angles = lamp_solid_angles();
     const double c = ball_cosine();
     const double q = 1.0 - c * c;
     const double ball = light_in_a_ball(q, c * c);
-    const Range dark = exactly(0.0);
     const double x = red_lamp_cosine();
+    const Range dark = exactly(0.0);
+    const Values seen{exactly(disc_emission[0]), exactly(1.0)};
     const char *by_chance = "lamps are hit by chance";
-    const char *to_a_lamp = "Send a ray to a lamp at each surface.";
-    const auto noisy = [&](const char *name, const char *hint, double variance) {
-        return Pattern{
-            name, hint,
-            joined(exact(right), {exactly(std::sqrt(variance)), exactly(ball), dark, {most_needed, infinity}})};
+    const auto pattern = [](const char *name, const char *hint, const Values &floor, Range in_ball,
+                            Range in_shadow = exactly(0.0)) {
+        return Pattern{name, hint, joined(floor, joined({any_value, in_ball, in_shadow}, any_values(3)))};
     };
-    return {{"", "", joined(exact(right), {any_value, exactly(ball), dark, {0.0, most_needed}})},
-            {"emission counted twice", "A lamp that is sampled must not count where a reflected ray hits it.",
-             joined(exact(right, 2.0), {any_value, exactly(2.0 * ball), dark, any_value})},
-            {"probability of the lamp forgotten", "Divide by the probability of choosing this lamp.",
-             joined(exact(right, 1.0 / lamp_count), {any_value, exactly(ball), dark, any_value})},
-            {"no geometric term", "Light from a lamp needs the cosine too.",
-             joined(near(lamplight(to_the_normals_side, [](double) { return 2.0; })),
-                    {any_value, any_value, dark, any_value})},
-            {"no shadows", "Light counts only if the lamp is the nearest surface.",
-             joined(any_values(5), {{1e-6, infinity}, any_value})},
-            {"paths one vertex long", "The last vertex must not sample lamps.",
-             joined(any_values(4), {exactly(light_in_a_ball(q, c * c, 4)), dark, any_value})},
-            noisy("lamps chosen alike", "Sample every lamp, or choose one by emission and solid angle.",
-                  variance_of_choice(x, lamp_count)),
-            noisy(by_chance, to_a_lamp, variance_by_cosine(x)),
-            noisy(by_chance, to_a_lamp, variance_of_uniform(x))};
+    const auto noisy = [&](const char *name, const char *hint, double variance) {
+        return Pattern{name, hint,
+                       joined(joined(exact(right), {exactly(std::sqrt(variance)), exactly(ball), dark}),
+                              joined(seen, {{most_needed, infinity}}))};
+    };
+    const auto unseen = [&](const char *name, const char *hint, const Values &values) {
+        return Pattern{name, hint, joined(any_values(6), joined(values, any_values(1)))};
+    };
+    const auto of_density = [&](const auto &factor) {
+        return exact({right[0] * factor(angles[0]), right[1] * factor(angles[1]), right[2] * factor(angles[2])});
+    };
+    return {
+        {"", "", joined(joined(exact(right), {any_value, exactly(ball), dark}), joined(seen, {{0.0, most_needed}}))},
+        pattern("emission counted twice", "A lamp that is sampled must not count where a reflected ray hits it.",
+                exact(right, 2.0), exactly(2.0 * ball)),
+        pattern("probability of the lamp forgotten", "Divide by the probability of choosing this lamp.",
+                exact(right, 1.0 / lamp_count), exactly(ball)),
+        pattern("no geometric term", "Light from a lamp needs the cosine too.",
+                near(lamplight(to_the_normals_side, [](double) { return 2.0; })), any_value),
+        pattern("no solid angle", "Directions in a cone have the density 1 / solid angle.",
+                of_density([](double angle) { return 1.0 / angle; }), any_value),
+        pattern("2 pi instead of the solid angle", "Directions in a cone have the density 1 / solid angle.",
+                of_density([](double angle) { return 2.0 * std::numbers::pi / angle; }), any_value),
+        pattern("only the first lamp", "Send a ray to each lamp, or choose one of them all.",
+                {exactly(right[0]), dark, dark}, any_value),
+        pattern("no shadows", "Light counts only if the lamp is the nearest surface.", any_values(3), any_value,
+                {1e-6, infinity}),
+        pattern("paths one vertex long", "The last vertex must not sample lamps.", any_values(3),
+                exactly(light_in_a_ball(q, c * c, 4))),
+        unseen("the camera sees no lamps", "Emission counts at vertex 1, which no ray to a lamp has sampled.",
+               {dark, any_value}),
+        unseen("emission dropped that no cone samples",
+               "Only the first LAMP_COUNT surfaces have cones. Other emission counts where a reflected ray hits it.",
+               {any_value, {0.0, 0.1}}),
+        noisy("lamps chosen alike", "Sample every lamp, or choose one by emission and solid angle.",
+              variance_of_choice(x, lamp_count)),
+        noisy(by_chance, to_a_lamp, variance_by_cosine(x)),
+        noisy(by_chance, to_a_lamp, variance_of_uniform(x))};
 }
 
 std::vector<Measured> measure_outside(CourseKernels &kernels) {
@@ -93,7 +128,8 @@ std::vector<Measured> measure_outside(CourseKernels &kernels) {
 
 // Both mistakes have nearly the same noise.
 std::vector<Pattern> outside_patterns() {
-    return {{"", "", {{0.0, most_needed}}},
+    return {{"", "", {{0.01, most_needed}}},
+            {"lamps out of the frame give no light", to_a_lamp, {exactly(0.0)}},
             {"lamps hit by chance or chosen alike",
              "Sample every lamp, or choose one by emission and solid angle.",
              {{most_needed, infinity}}}};

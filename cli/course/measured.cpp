@@ -33,7 +33,7 @@ Estimate relative_difference(const Picture &a, const Picture &b) {
         squares += of_pixel * of_pixel;
     }
     const double count = static_cast<double>(a.radiance.size()) / 3.0;
-    return {sum / count, std::sqrt(std::max(squares / (sum * sum) - 1.0 / count, 0.0))};
+    return {sum / count, sum > 0.0 ? std::sqrt(std::max(squares / (sum * sum) - 1.0 / count, 0.0)) : 0.0};
 }
 
 } // namespace
@@ -77,16 +77,31 @@ Measured Picture::relative_deviation(const std::string &name, std::size_t channe
     return {name, value, standard_errors * 0.5 * variance_error(channel) * value + sample_rounding};
 }
 
-Measured variance_beside(const std::string &name, const Picture &picture, const Picture &other) {
-    const double variance = squared(other.deviation(0));
-    const double ratio = squared(picture.deviation(0)) / variance;
-    const double relative_bound = standard_errors * std::hypot(picture.variance_error(0), other.variance_error(0));
-    return {name, ratio, relative_bound * ratio + squared(sample_rounding * picture.mean("", 0).value) / variance};
+Measured relative_variance(const std::string &name, const Picture &picture, double samples, const Picture &single) {
+    const auto variance = [](const Picture &of) {
+        const double deviation = of.deviation(0);
+        return deviation > sample_rounding * of.mean("", 0).value ? squared(deviation) : 0.0;
+    };
+    if (variance(picture) == 0.0)
+        return {name, 0.0, 0.0};
+    const double ratio = samples * variance(picture) / variance(single);
+    return {name, ratio, standard_errors * std::hypot(picture.variance_error(0), single.variance_error(0)) * ratio};
 }
 
 CourseKernels::CourseKernels(std::string shader_dir, std::string device) :
+    shader_dir_(std::move(shader_dir)),
     device_(std::move(device)),
-    edited_(create_info(device_, shader_dir)) {}
+    edited_(create_info(device_, shader_dir_)) {}
+
+std::vector<double> CourseKernels::numbers(SceneFile scene, std::uint32_t sample) {
+    if (!traced_) {
+        traced_folder_.emplace(shader_dir_);
+        traced_.emplace(create_info(device_, traced_folder_->path()));
+    }
+    scene.render.sampler = PT_SAMPLER_HALTON_CP;
+    scene.render.first_sample = sample;
+    return traced_numbers(render_radiance(*traced_, scene, {1}));
+}
 
 const Context &CourseKernels::built_in() {
     if (!built_in_)

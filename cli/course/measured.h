@@ -3,6 +3,7 @@
 
 #include "cli/base/context.h"
 #include "cli/compare/light.h"
+#include "cli/course/traced_numbers.h"
 #include "cli/scene/scene.h"
 
 #include <cstddef>
@@ -36,14 +37,17 @@ struct Picture {
     Measured relative_deviation(const std::string &name, std::size_t channel) const;
 };
 
-// Quotient of both pictures' variances over the pixels, in the red channel.
-Measured variance_beside(const std::string &name, const Picture &picture, const Picture &other);
+// Variance over the pixels times `samples`, divided by the variance of single samples, in the red channel.
+Measured relative_variance(const std::string &name, const Picture &picture, double samples, const Picture &single);
 
 class CourseKernels {
 public:
     CourseKernels(std::string shader_dir, std::string device);
 
     Picture edited(const SceneFile &scene) const { return render(edited_, scene); }
+
+    // Shifted numbers of a sample of the first pixel. Empty if the kernel does not pass them to traced_number().
+    std::vector<double> numbers(SceneFile scene, std::uint32_t sample);
 
     // Samples that the edited kernel needs for one sample of the library's, at the same relative square error.
     Measured samples_needed(const std::string &name, SceneFile scene);
@@ -55,9 +59,12 @@ private:
     static Picture render(const Context &context, const SceneFile &scene);
     const Context &built_in();
 
+    std::string shader_dir_;
     std::string device_;
     Context edited_;
     std::optional<Context> built_in_;
+    std::optional<TracedFolder> traced_folder_;
+    std::optional<Context> traced_;
 };
 
 } // namespace cli

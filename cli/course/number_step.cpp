@@ -1,5 +1,13 @@
+#include "cli/base/text.h"
 #include "cli/course/step_parts.h"
 #include "cli/course/step_values.h"
+#include "cli/selftest/selftest.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numeric>
 
 namespace cli {
 namespace {
@@ -7,54 +15,126 @@ namespace {
 constexpr std::uint32_t side = 64;
 constexpr std::uint32_t samples = 64;
 
-// Ranges of a variance, relative to the variance of random numbers. If pixel values are normally distributed, their
+// Ranges of relative_variance(), which is 1 for random numbers. If pixel values are normally distributed, their
 // variance has the relative standard deviation sqrt(2 / pixels). The quotient of two such variances has
-// 2 / sqrt(pixels) = 2 / side. Ranges stay two bounds away from 1, and from `samples`, the variance if all samples are
-// equal. With N samples the variance of random numbers falls as 1 / N. For functions with edges, the variance of
-// Halton's points falls more slowly than 1 / N^3.
+// 2 / sqrt(pixels) = 2 / side. Ranges stay two bounds away from 1. With N samples the variance of random numbers falls
+// as 1 / N. For functions with edges, the variance of Halton's points falls more slowly than 1 / N^3.
 constexpr double apart = 1.0 + 2.0 * standard_errors * 2.0 / side;
 constexpr Range better_than_random{1.0 / (samples * samples), 1.0 / apart};
-constexpr Range worse_than_random{apart, samples / apart};
+constexpr Range no_worse_than_random{better_than_random.least, 1.0};
+
+using Numbers = std::vector<double>;
+
+double modulo_1(double number) {
+    return number - std::floor(number);
+}
+
+// Halton's points, shifted or not, step by 1 / base modulo 1. A carry to the next digit adds to a step, but never to
+// two in succession. Returns 0 for other numbers.
+int base_of(double first, double second, double third) {
+    const double step = std::min(modulo_1(second - first), modulo_1(third - second));
+    const double base = std::round(1.0 / step);
+    return step > 0.0 && std::abs(1.0 / step - base) < 0.01 ? static_cast<int>(base) : 0;
+}
+
+template <typename Element, typename Alike>
+double pairs(const std::vector<Element> &elements, const Alike &alike) {
+    double count = 0.0;
+    for (std::size_t i = 0; i < elements.size(); ++i)
+        count += static_cast<double>(std::count_if(elements.begin(), elements.begin() + static_cast<std::ptrdiff_t>(i),
+                                                   [&](Element other) { return alike(elements[i], other); }));
+    return count;
+}
+
+Picture sampled(const CourseKernels &kernels, std::uint32_t sampler) {
+    SceneFile scene = lamps_above_a_floor(side, samples);
+    scene.render.sampler = sampler;
+    return kernels.edited(scene);
+}
+
+Measured variance(const CourseKernels &kernels, const char *sampler, const Picture &picture) {
+    return relative_variance(concat("variance x samples, ", sampler), picture, samples,
+                             kernels.edited(lamps_above_a_floor(2 * side, 1)));
+}
 
 } // namespace
 
 std::vector<Measured> measure_numbers(CourseKernels &kernels) {
-    SceneFile scene = lamps_above_a_floor(side, samples);
-    const Picture random = kernels.edited(scene);
-    scene.render.sampler = PT_SAMPLER_HALTON_CP;
-    const Picture shifted = kernels.edited(scene);
-    scene.render.sampler = PT_SAMPLER_HALTON;
-    const Picture unshifted = kernels.edited(scene);
+    const Picture shifted = sampled(kernels, PT_SAMPLER_HALTON_CP);
     std::vector<Measured> measured = means(shifted, "shifted points, five lamps");
-    measured.push_back(variance_beside("their variance beside random numbers", shifted, random));
-    measured.push_back(variance_beside("the same without the shift", unshifted, random));
+    measured.push_back(variance(kernels, "random", sampled(kernels, PT_SAMPLER_RANDOM)));
+    measured.push_back(variance(kernels, "halton-cp", shifted));
     return measured;
 }
 
+std::vector<Measured> measure_samplers(CourseKernels &kernels) {
+    return {variance(kernels, "halton", sampled(kernels, PT_SAMPLER_HALTON)),
+            variance(kernels, "default", sampled(kernels, PT_SAMPLER_BEST))};
+}
+
+// Only the first numbers of a path need Halton's points. If the index of a pixel's first point is 0, its number is the
+// shift, and if it is 1, shift + 1 / base.
+std::vector<Measured> measure_dimensions(CourseKernels &kernels) {
+    constexpr std::size_t dimensions = 8;
+    constexpr std::uint32_t last = 2 * 3 * 5 * 7 * 11 * 13 - 1; // its last digits are the greatest
+    const auto numbers = [&](std::uint32_t sample) { return kernels.numbers(glowing_ball(4), sample); };
+    const std::array<Numbers, 4> points{numbers(0), numbers(1), numbers(2), numbers(last)};
+    std::vector<int> bases;
+    std::array<Numbers, 2> shifts;
+    for (std::size_t i = 0; i < std::min({dimensions, points[0].size(), points[1].size(), points[2].size()}); ++i) {
+        const int base = base_of(points[0][i], points[1][i], points[2][i]);
+        if (base > 0) {
+            bases.push_back(base);
+            shifts[0].push_back(points[0][i]);
+            shifts[1].push_back(modulo_1(points[0][i] - 1.0 / base));
+        }
+    }
+    const auto are_near = [](double a, double b) { return a > 0.0 && std::abs(a - b) < 1e-6; };
+    return {{"pairs of numbers with equal bases", pairs(bases, std::equal_to<>()), 0.0},
+            {"bases with a common factor", pairs(bases, [](int a, int b) { return std::gcd(a, b) > 1; }), 0.0},
+            {"pairs of equal shifts", std::max(pairs(shifts[0], are_near), pairs(shifts[1], are_near)), 0.0},
+            {"largest shifted number", points[3].empty() ? 0.0 : std::ranges::max(points[3]), 0.0}};
+}
+
 std::vector<Pattern> number_patterns() {
-    const Channels right = right_lamplight();
-    const auto values = [&](Range shifted_variance, Range unshifted_variance) {
-        return joined(exact(right), {shifted_variance, unshifted_variance});
+    const Range some{1.0, infinity};
+    const Range below_1{0.0, 1.0 - unit_roundoff};
+    const auto variances = [](const char *name, const char *hint, Range random, Range shifted,
+                              Range unshifted = any_value, Range other = any_value) {
+        return Pattern{name, hint,
+                       joined(any_values(3), joined({random, shifted}, joined(any_values(4), {unshifted, other})))};
     };
-    const char *equal_numbers = "equal numbers in all dimensions";
-    const char *own_base = "Each number of a sample needs its own base.";
-    std::vector<Pattern> patterns{
-        {"", "", values(better_than_random, exactly(0.0))},
-        {"numbers are still random", "The sampler halton-cp must return Halton's points.",
-         values(exactly(1.0), any_value)},
-        {"the sampler halton is still random", "The sampler halton must return Halton's points, without a shift.",
-         values(better_than_random, exactly(1.0))},
-        {"the sampler halton is shifted too", "The sampler halton has the same points in all pixels.",
-         values(better_than_random, better_than_random)},
-        {"pixel shift missing", "Add a random number of the pixel and the dimension, modulo 1.",
-         joined(any_values(3), {exactly(0.0), any_value})},
-        {"integer division", "1 / base is 0 for integers, so all samples of a pixel have the same numbers.",
-         joined(any_values(3), {exactly(samples), any_value})},
-        {equal_numbers, own_base, joined(any_values(3), {worse_than_random, any_value})}};
-    for (const double first : {1.0, -1.0})
-        patterns.push_back(
-            {equal_numbers, own_base, joined(near(lamplight_of_equal_numbers(first, -first)), any_values(2))});
-    return patterns;
+    const auto dimensions = [](const char *name, const char *hint, const Values &values) {
+        return Pattern{name, hint, joined(any_values(5), joined(values, any_values(2)))};
+    };
+    return {{"", "",
+             joined(exact(right_lamplight()), {exactly(1.0), better_than_random, exactly(0.0), exactly(0.0),
+                                               exactly(0.0), below_1, exactly(0.0), no_worse_than_random})},
+            variances("the sampler random is not random", "SAMPLER_RANDOM keeps random numbers; SAMPLER chooses.",
+                      {0.0, better_than_random.most}, any_value),
+            variances("numbers are still random", "The sampler halton-cp must return Halton's points.", any_value,
+                      exactly(1.0)),
+            variances("the sampler halton is still random",
+                      "The sampler halton must return Halton's points, without a shift.", exactly(1.0),
+                      better_than_random, exactly(1.0)),
+            variances("the sampler halton is shifted too", "The sampler halton has the same points in all pixels.",
+                      exactly(1.0), better_than_random, better_than_random),
+            variances("the default sampler has no shift",
+                      "Only the sampler halton has the same points in all pixels. All others are random or shifted.",
+                      exactly(1.0), better_than_random, exactly(0.0), exactly(0.0)),
+            variances("pixel shift missing", "Add a random number of the pixel and the dimension, modulo 1.", any_value,
+                      exactly(0.0)),
+            variances("integer division",
+                      "1 / base is 0 for integers, so all samples of a pixel have the same numbers.", any_value,
+                      exactly(samples)),
+            dimensions("equal numbers in all dimensions", "Each number of a sample needs its own base.",
+                       {some, any_value, any_value, any_value}),
+            dimensions("bases with a common factor", "Bases must be primes: 2, 3, 5, 7, 11 and so on.",
+                       {exactly(0.0), some, any_value, any_value}),
+            dimensions("one shift for all dimensions", "The shift's random number depends on pixel and dimension.",
+                       {exactly(0.0), exactly(0.0), some, any_value}),
+            dimensions("no modulo 1", "The sum of number and shift must return to [0, 1): take fract().",
+                       {exactly(0.0), exactly(0.0), any_value, {1.0 - 1e-6, infinity}})};
 }
 
 } // namespace cli

@@ -30,7 +30,7 @@ inline constexpr Range any_value{-std::numeric_limits<double>::infinity(), std::
 struct Pattern {
     std::string name; // empty for a right step
     std::string hint;
-    std::vector<Range> values; // one for each measurement
+    std::vector<Range> values; // one for each measurement of all stages
 
     bool is_right() const { return name.empty(); }
 };
@@ -47,7 +47,7 @@ struct CourseVerdict {
 // Returns the largest deviation from the pattern in units of the measurements' bounds.
 double misfit(std::span<const Measured> measured, const Pattern &pattern);
 
-// `patterns` must include a right one.
+// `patterns` must include a right one. Mistakes that do not differ from it in these measurements do not fit.
 CourseVerdict judge(std::vector<Measured> measured, std::span<const Pattern> patterns);
 
 } // namespace cli

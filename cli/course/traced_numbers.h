@@ -1,0 +1,27 @@
+// The numbers that a sample draws, by the hooks of shaders/trace.glsl.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace cli {
+
+// A temporary copy of a folder of kernels. They trace the first pixel.
+class TracedFolder {
+public:
+    // Throws Failure(ExitCode::file).
+    explicit TracedFolder(const std::string &shader_dir);
+    TracedFolder(const TracedFolder &) = delete;
+    TracedFolder &operator=(const TracedFolder &) = delete;
+    ~TracedFolder();
+
+    const std::string &path() const { return path_; }
+
+private:
+    std::string path_;
+};
+
+std::vector<double> traced_numbers(std::span<const float> film);
+
+} // namespace cli
