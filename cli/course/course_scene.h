@@ -29,10 +29,10 @@ glm::dvec3 unturned(const glm::dvec3 &direction, const glm::dvec3 &normal);
 // Means of the picture, by quadrature over the sphere.
 Channels lamplight(const Turn &turn, const Weight &weight);
 
-// The same scene with a glossy floor, seen from a green lamp. A mirror would show a blue one.
+// The same with a glossy floor, seen from a green lamp. A mirror would show a blue one.
 SceneFile lamps_above_a_glossy_floor();
 
-// Means of its picture if lobes are about axis_of(ray's direction, normal), by quadrature.
+// Its means if lobes are about axis_of(ray, normal), by quadrature.
 Channels gloss_of_lamps(const Turn &axis_of);
 glm::dvec3 mirrored(const glm::dvec3 &ray, const glm::dvec3 &normal);
 glm::dvec3 turned_back(const glm::dvec3 &ray, const glm::dvec3 &normal);
@@ -75,8 +75,8 @@ SceneFile ball_before_camera_and_lamp();
 
 struct FloorLight {
     Channels right;
-    Channels reflected_at_0;        // only the camera's rays have the time of the sample
-    Channels reflected_at_any_time; // reflected rays have times of their own
+    Channels reflected_at_0; // time 0 after the camera's ray
+    Channels reflected_at_any_time;
 };
 
 FloorLight light_below_the_ball(); // by quadrature

@@ -105,8 +105,7 @@ std::vector<Pattern> motion_patterns() {
     const Values right = at(1.0, 0.0);
     const FloorLight light = light_below_the_ball();
     const Range green = nearly(light.right[1]);
-    // Two thirds of all times have no green light. The deviation is sqrt(2) with one time a pixel, and with 64 times
-    // about an eighth, plus noise.
+    // Green light has the relative deviation sqrt(2) with one time a pixel, an eighth with 64.
     const Range own_times{0.0, 0.7};
     const Range moving{20.0, infinity}; // softness
     const auto disc = [](const char *name, const char *hint, const Values &values, Range deviation = any_value) {

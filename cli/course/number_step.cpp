@@ -15,10 +15,9 @@ namespace {
 constexpr std::uint32_t side = 64;
 constexpr std::uint32_t samples = 64;
 
-// Ranges of relative_variance(), which is 1 for random numbers. If pixel values are normally distributed, their
-// variance has the relative standard deviation sqrt(2 / pixels). The quotient of two such variances has
-// 2 / sqrt(pixels) = 2 / side. Ranges stay two bounds away from 1. With N samples the variance of random numbers falls
-// as 1 / N. For functions with edges, the variance of Halton's points falls more slowly than 1 / N^3.
+// Ranges of relative_variance() stay two bounds away from 1, its value for random numbers. A quotient of two variances
+// over normally distributed pixels has the standard deviation 2 / side. For functions with edges, the variance of
+// Halton's points falls more slowly than 1 / N^3.
 constexpr double apart = 1.0 + 2.0 * standard_errors * 2.0 / side;
 constexpr Range better_than_random{1.0 / (samples * samples), 1.0 / apart};
 constexpr Range no_worse_than_random{better_than_random.least, 1.0};
@@ -72,8 +71,7 @@ std::vector<Measured> measure_samplers(CourseKernels &kernels) {
             variance(kernels, "default", sampled(kernels, PT_SAMPLER_BEST))};
 }
 
-// Only the first numbers of a path need Halton's points. If the index of a pixel's first point is 0, its number is the
-// shift, and if it is 1, shift + 1 / base.
+// A pixel's first number is the shift if its point has index 0, or shift + 1 / base for index 1.
 std::vector<Measured> measure_dimensions(CourseKernels &kernels) {
     constexpr std::size_t dimensions = 8;
     constexpr std::uint32_t last = 2 * 3 * 5 * 7 * 11 * 13 - 1; // its last digits are the greatest

@@ -1,4 +1,4 @@
-// The numbers that a sample draws, by the hooks of shaders/trace.glsl.
+// Numbers of a sample, by the hooks of shaders/trace.glsl.
 #pragma once
 
 #include <span>
