@@ -12,7 +12,6 @@ struct CourseFile {
     std::string_view text;
 };
 
-// Defined in a generated source.
 const std::vector<CourseFile> &course_files();
 
 std::string course_file(const std::string &path);

@@ -75,7 +75,7 @@ void add_light(Channels &light, const glm::dvec3 &direction, double weight) {
             light[lamp.channel] += weight;
 }
 
-// A point of a spherical Fibonacci lattice (Swinbank and Purser 2006).
+// Spherical Fibonacci lattice (Swinbank and Purser 2006).
 glm::dvec3 lattice_direction(int i, int count) {
     const double height = 1.0 - (2.0 * i + 1.0) / count;
     const double angle = 2.0 * pi * i / std::numbers::phi;

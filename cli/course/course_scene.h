@@ -11,13 +11,13 @@
 
 namespace cli {
 
-// Five lamps above a tilted floor, seen by parallel rays. The lamps are as far away as the sky. The red lamp lies along
-// the normal. Two green lamps are beside it, opposite two blue ones.
+// Five far lamps above a tilted floor, seen by parallel rays. The red lamp lies along the normal. Two green lamps are
+// beside it, opposite two blue ones.
 SceneFile lamps_above_a_floor(std::uint32_t side, std::uint32_t sample_count);
 
 using Channels = std::array<double, 3>;
 
-// Turns a uniform direction on the sphere into the direction that a kernel takes.
+// Turns a uniform direction into a kernel's.
 using Turn = std::function<glm::dvec3(const glm::dvec3 &direction, const glm::dvec3 &normal)>;
 // Weight of a direction with this cosine to the normal; 0 below the surface.
 using Weight = std::function<double(double cosine)>;
@@ -29,31 +29,31 @@ glm::dvec3 unturned(const glm::dvec3 &direction, const glm::dvec3 &normal);
 // Means of the picture, by quadrature over the sphere.
 Channels lamplight(const Turn &turn, const Weight &weight);
 
-// The same with a glossy floor, seen from a green lamp. A mirror would show a blue one.
+// With a glossy floor, seen from a green lamp. A mirror would show a blue one.
 SceneFile lamps_above_a_glossy_floor();
 
-// Its means if lobes are about axis_of(ray, normal), by quadrature.
+// Its means, if lobes are about axis_of(ray, normal).
 Channels gloss_of_lamps(const Turn &axis_of);
 glm::dvec3 mirrored(const glm::dvec3 &ray, const glm::dvec3 &normal);
 glm::dvec3 turned_back(const glm::dvec3 &ray, const glm::dvec3 &normal);
 glm::dvec3 along_normal(const glm::dvec3 &ray, const glm::dvec3 &normal);
 
 inline constexpr double lamp_count = 5.0;
-double red_lamp_cosine(); // cosine of half the angle of the lamp's cone about the normal
+double red_lamp_cosine(); // of half its cone's angle
 
-Channels lamp_solid_angles(); // of a lamp of each color
+Channels lamp_solid_angles();
 
 // Exact values by form factors of spheres above a plane (Snyder 1996).
 Channels right_lamplight();
 
-// The sky is yellow, and so is a tiny lamp. The tilted floor reflects red diffusely and green in a lobe. It emits blue,
-// which the sky lacks, so the blue channel shows the floor's own light, 1. Each pixel has one sample.
+// The sky and a tiny lamp are yellow. The tilted floor reflects red diffusely and green in a lobe, and alone emits
+// blue, 1. Each pixel has one sample.
 SceneFile floor_under_the_sky();
 inline constexpr double floor_glossiness = 8.0;
 
 // Radiance in selftest's lamp_in_a_ball(). Directions to the lamp have the weight `hit`, others the weight `missed`.
 double light_in_a_ball(double hit, double missed, int vertices = 3);
-double ball_cosine(); // cosine of half the angle of the lamp's cone
+double ball_cosine(); // of half the cone's angle
 
 // A ball of emission 1 that reflects half, seen from its inside.
 SceneFile glowing_ball(std::uint32_t max_path_length);
@@ -66,11 +66,10 @@ SceneFile disc(bool moves);
 inline constexpr double disc_radius = 10.3; // pixels
 inline constexpr Channels disc_emission{4.0, 0.5, 0.1};
 
-// Cosine between the normal and the ray of the picture's middle pixel.
+// At the picture's middle.
 double disc_cosine();
 
-// A blue ball moves before a floor's point. First it hides the point from the camera, then a red lamp from the point.
-// At all times it hides one of them. The sky is green.
+// A blue ball hides a floor from the camera, then a red lamp from the floor, and always one of them. The sky is green.
 SceneFile ball_before_camera_and_lamp();
 
 struct FloorLight {
@@ -79,10 +78,10 @@ struct FloorLight {
     Channels reflected_at_any_time;
 };
 
-FloorLight light_below_the_ball(); // by quadrature
+FloorLight light_below_the_ball();
 
 struct DiscSample {
-    glm::dvec2 place; // in the pixel
+    glm::dvec2 place;
     double time;
 };
 
@@ -91,7 +90,7 @@ std::vector<Measured> disc_values(std::span<const double> coverage, double bound
 std::vector<Measured> disc_values(const Picture &picture);
 std::vector<Range> disc_values(bool moves, const std::vector<DiscSample> &samples);
 
-// Reads the file `name` in cli/scenes. The picture has 64x32 pixels.
+// A file in cli/scenes, with 64x32 pixels.
 SceneFile course_scene(const std::string &name, std::uint32_t sample_count, std::uint32_t max_path_length,
                        std::uint32_t estimator);
 

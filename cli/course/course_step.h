@@ -1,4 +1,4 @@
-// The steps of shaders/COURSEWORK.md. Each has its measurements, and their values for right steps and usual mistakes.
+// The steps of shaders/COURSEWORK.md, with measurements and their values for right steps and usual mistakes.
 #pragma once
 
 #include "cli/course/verdict.h"
@@ -10,12 +10,12 @@
 namespace cli {
 
 struct CourseStep {
-    std::string name; // the part of the exercise, such as "6a"
+    std::string name; // such as "6a"
     std::string title;
     unsigned points;
     std::vector<std::vector<Measured> (*)(CourseKernels &)> measure; // in stages, until a mistake has a name
     std::vector<Pattern> (*patterns)();                              // takes a tenth of a second for some steps
-    std::function<SceneFile()> same_light; // scene for the comparison with the library's kernel, or empty
+    std::function<SceneFile()> same_light;                           // may be empty
 };
 
 const std::vector<CourseStep> &course_steps();

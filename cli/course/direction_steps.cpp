@@ -23,7 +23,6 @@ std::vector<Measured> measure_directions(CourseKernels &kernels) {
     return measured;
 }
 
-// Each mistake is predicted with and without throughput.
 std::vector<Pattern> direction_patterns() {
     const Weight one = [](double cosine) { return no_weight_below(cosine, 1.0); };
     const Channels angles = lamp_solid_angles();

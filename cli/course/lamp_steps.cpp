@@ -14,9 +14,14 @@ constexpr const char *to_a_lamp = "Send a ray to a lamp at each surface.";
 SceneFile lamp_scene(const char *name) {
     SceneFile scene = course_scene(name, 16, 2, PT_ESTIMATOR_LIGHT);
     scene.render.sampler = PT_SAMPLER_RANDOM;
-    scene.render.width = 256; // many pixels, because few of them have most of the error
+    scene.render.width = 256; // few pixels have most of the error
     scene.render.height = 128;
     return scene;
+}
+
+Picture by_lamps(const CourseKernels &kernels, SceneFile scene) {
+    scene.render.estimator = PT_ESTIMATOR_LIGHT;
+    return kernels.edited(scene);
 }
 
 // Relative variances of a sample's light from the red lamp, which fills a cone about the normal. x is the cosine of its
@@ -49,23 +54,19 @@ std::vector<Measured> measure_lamps(CourseKernels &kernels) {
     deviation.value *= std::sqrt(floor_samples);
     deviation.bound *= std::sqrt(floor_samples);
     measured.push_back(deviation);
+    measured.push_back(by_lamps(kernels, shadow()).mean("full shadow", 0));
     return measured;
 }
 
 std::vector<Measured> measure_seen_lamps(CourseKernels &kernels) {
-    const auto picture = [&](SceneFile scene) {
-        scene.render.estimator = PT_ESTIMATOR_LIGHT;
-        return kernels.edited(scene);
-    };
-    const Picture lamp = picture(disc(false));
-    return {ball_mean(kernels, PT_ESTIMATOR_LIGHT),
-            picture(shadow()).mean("full shadow", 0),
-            {"a lamp's emission, red", lamp.at(lamp.width / 2, lamp.height / 2, 0), 1e-4},
-            picture(floor_under_the_sky()).mean("floor under a sky, red", 0)};
+    const Picture lamp = by_lamps(kernels, disc(false));
+    return {{"a lamp's emission, red", lamp.at(lamp.width / 2, lamp.height / 2, 0), 1e-4},
+            by_lamps(kernels, floor_under_the_sky()).mean("floor under a sky, red", 0)};
 }
 
 std::vector<Measured> measure_lamp_noise(CourseKernels &kernels) {
-    return {kernels.samples_needed("samples needed per library sample", lamp_scene("coursework-lamps.json"))};
+    return {ball_mean(kernels, PT_ESTIMATOR_LIGHT),
+            kernels.samples_needed("samples needed per library sample", lamp_scene("coursework-lamps.json"))};
 }
 
 std::vector<Pattern> lamp_patterns() {
@@ -80,21 +81,23 @@ std::vector<Pattern> lamp_patterns() {
     const char *by_chance = "lamps are hit by chance";
     const auto pattern = [](const char *name, const char *hint, const Values &floor, Range in_ball,
                             Range in_shadow = exactly(0.0)) {
-        return Pattern{name, hint, joined(floor, joined({any_value, in_ball, in_shadow}, any_values(3)))};
+        return Pattern{name, hint, joined(floor, {any_value, in_shadow, any_value, any_value, in_ball, any_value})};
+    };
+    const auto all = [&](const char *name, const char *hint, Range deviation, Range needed) {
+        return Pattern{name, hint,
+                       joined(joined(exact(right), {deviation, dark}), joined(seen, {exactly(ball), needed}))};
     };
     const auto noisy = [&](const char *name, const char *hint, double variance) {
-        return Pattern{name, hint,
-                       joined(joined(exact(right), {exactly(std::sqrt(variance)), exactly(ball), dark}),
-                              joined(seen, {{most_needed, infinity}}))};
+        return all(name, hint, exactly(std::sqrt(variance)), {most_needed, infinity});
     };
     const auto unseen = [&](const char *name, const char *hint, const Values &values) {
-        return Pattern{name, hint, joined(any_values(6), joined(values, any_values(1)))};
+        return Pattern{name, hint, joined(any_values(5), joined(values, any_values(2)))};
     };
     const auto of_density = [&](const auto &factor) {
         return exact({right[0] * factor(angles[0]), right[1] * factor(angles[1]), right[2] * factor(angles[2])});
     };
     return {
-        {"", "", joined(joined(exact(right), {any_value, exactly(ball), dark}), joined(seen, {{0.0, most_needed}}))},
+        all("", "", any_value, {0.0, most_needed}),
         pattern("emission counted twice", "A lamp that is sampled must not count where a reflected ray hits it.",
                 exact(right, 2.0), exactly(2.0 * ball)),
         pattern("probability of the lamp forgotten", "Divide by the probability of choosing this lamp.",

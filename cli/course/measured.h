@@ -33,11 +33,10 @@ struct Picture {
     double deviation(std::size_t channel) const;      // standard deviation over the pixels
     double variance_error(std::size_t channel) const; // relative standard error of the square of deviation()
 
-    // The standard deviation over the pixels divided by their mean.
     Measured relative_deviation(const std::string &name, std::size_t channel) const;
 };
 
-// Variance over the pixels times `samples`, divided by the variance of single samples, in the red channel.
+// Red variance over the pixels times `samples`, divided by the variance of single samples.
 Measured relative_variance(const std::string &name, const Picture &picture, double samples, const Picture &single);
 
 class CourseKernels {
@@ -46,13 +45,13 @@ public:
 
     Picture edited(const SceneFile &scene) const { return render(edited_, scene); }
 
-    // Shifted numbers of a sample of the first pixel. Empty if the kernel does not pass them to traced_number().
+    // Shifted numbers of a sample, if the kernel passes them to traced_number().
     std::vector<double> numbers(SceneFile scene, std::uint32_t sample);
 
-    // Samples that the edited kernel needs for one sample of the library's, at the same relative square error.
+    // For one sample of the library's, at the same relative square error.
     Measured samples_needed(const std::string &name, SceneFile scene);
 
-    // Whether both kernels show the same light, by the sequential test of `pt compare`.
+    // The sequential test of `pt compare`.
     LightVerdict compare(const SceneFile &scene);
 
 private:

@@ -15,9 +15,8 @@ namespace {
 constexpr std::uint32_t side = 64;
 constexpr std::uint32_t samples = 64;
 
-// Ranges of relative_variance() stay two bounds away from 1, its value for random numbers. A quotient of two variances
-// over normally distributed pixels has the standard deviation 2 / side. For functions with edges, the variance of
-// Halton's points falls more slowly than 1 / N^3.
+// Two bounds away from 1, the value of random numbers. A quotient of two variances over normally distributed pixels has
+// the standard deviation 2 / side. For functions with edges, Halton's variance falls more slowly than 1 / N^3.
 constexpr double apart = 1.0 + 2.0 * standard_errors * 2.0 / side;
 constexpr Range better_than_random{1.0 / (samples * samples), 1.0 / apart};
 constexpr Range no_worse_than_random{better_than_random.least, 1.0};
@@ -28,8 +27,8 @@ double modulo_1(double number) {
     return number - std::floor(number);
 }
 
-// Halton's points, shifted or not, step by 1 / base modulo 1. A carry to the next digit adds to a step, but never to
-// two in succession. Returns 0 for other numbers.
+// Halton's points step by 1 / base modulo 1. A carry adds to a step, but never to two in succession. Returns 0 for
+// other numbers.
 int base_of(double first, double second, double third) {
     const double step = std::min(modulo_1(second - first), modulo_1(third - second));
     const double base = std::round(1.0 / step);

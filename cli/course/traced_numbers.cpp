@@ -34,7 +34,6 @@ TracedFolder::~TracedFolder() {
     fs::remove_all(path_, error);
 }
 
-// Records are as in trace.glsl.
 std::vector<double> traced_numbers(std::span<const float> film) {
     constexpr std::uint32_t number_kind = 2;
     constexpr std::size_t record_size = 6;

@@ -7,10 +7,9 @@
 
 namespace cli {
 
-// A temporary copy of a folder of kernels. They trace the first pixel.
+// A temporary copy of kernels, which trace the first pixel.
 class TracedFolder {
 public:
-    // Throws Failure(ExitCode::file).
     explicit TracedFolder(const std::string &shader_dir);
     TracedFolder(const TracedFolder &) = delete;
     TracedFolder &operator=(const TracedFolder &) = delete;

@@ -1,4 +1,4 @@
-// A verdict is the pattern of values that fits measurements best: the right one, or a usual mistake's.
+// The pattern of values that fits measurements best: the right one, or a usual mistake's.
 #pragma once
 
 #include "cli/course/measured.h"
@@ -30,7 +30,7 @@ inline constexpr Range any_value{-std::numeric_limits<double>::infinity(), std::
 struct Pattern {
     std::string name; // empty for a right step
     std::string hint;
-    std::vector<Range> values; // one for each measurement of all stages
+    std::vector<Range> values; // of all stages
 
     bool is_right() const { return name.empty(); }
 };
@@ -39,7 +39,7 @@ struct CourseVerdict {
     std::vector<Measured> measured;
     std::vector<Range> expected; // values of the nearest right pattern
     std::optional<Pattern> fitting;
-    std::string other_light; // summary of a test for equal light that failed, otherwise empty
+    std::string other_light; // of a failed test for equal light
 
     bool is_right() const { return fitting && fitting->is_right() && other_light.empty(); }
 };
