@@ -30,7 +30,7 @@ from pt.figures._framing import narrow_note
 from pt.figures._layout import Layout, View
 from pt.figures._noise import Noise, squares_of, until_invisible
 from pt.figures._options import Options, described
-from pt.figures._overlay import INK, Overlaid, Shares, line_width, pixels_per_length, rays_per_side, read_shares
+from pt.figures._overlay import FINE, INK, Overlaid, Shares, line_width, pixels_per_length, rays_per_side, read_shares
 from pt.figures._particles import Particles
 from pt.figures._picture import PAGES, Picture, background_of, strip_of
 from pt.figures._rods import cell_edges
@@ -147,9 +147,11 @@ class Staged:
         shares = read_shares(context, camera, settings, overlaid)
         context.set_render(settings)
         seen = marks.seen(camera, context.readback(Quantity.DEPTH)[:, :, 0]) if marks.words else np.zeros(0, bool)
+        overlaid = replace(overlaid, outlines=False)
         if solid is not None:
             context.set_scene(scene)
-            shares = replace(read_shares(context, camera, settings, replace(overlaid, outlines=False)), outlines=shares.outlines)
+        if opacities is not None or shares.is_rough:
+            shares = replace(read_shares(context, camera, settings, overlaid, FINE), outlines=shares.outlines)
         shares = replace(shares, seen=seen)
         shares = self._with_look(context, settings, shares)
         stage: Any = SURROUND_BRIGHTNESS if len(lamps) > 1 else 1.0
@@ -159,10 +161,10 @@ class Staged:
         else:
             image = context.render(scene, camera, settings, options.most_samples, target_error=options.error or 0.0,
                                    progress=options.progress, denoise=options.denoise)
-        if self.drawn.opacities is not None:
-            per_side = rays_per_side(image.stats.mean_sample_count, settings.width * settings.height)
-            shapes = read_shares(context, camera, settings, replace(overlaid, outlines=False), per_side).shapes
-            shares = replace(shares, shapes=shapes)
+        per_side = rays_per_side(image.stats.mean_sample_count, settings.width * settings.height)
+        if opacities is not None and per_side > FINE:
+            fine = read_shares(context, camera, settings, overlaid, per_side)
+            shares = replace(shares, shapes=fine.shapes, error=fine.error)
         if not shares.shapes.any():
             self.notes.append("the picture is blank: no ball is in view")
         if scene.planes:
@@ -199,7 +201,8 @@ class Figure(Picture, Image):
         if not np.isfinite(self.standard_error).all():
             return Noise(math.inf, 0.0, math.inf)
         show = functools.partial(_sixteen_bits, self._staged.options, self._stage, self._shares)
-        return Noise.of(squares_of(show, self.radiance, self.standard_error)[self._shares.shapes > 0.0])
+        squares = squares_of(show, self.radiance, self.standard_error) + squares_of(show, self.radiance, 0.0, 1.0)
+        return Noise.of(squares[self._shares.shapes > 0.0])
 
     def _pixels(self, dtype: Any, exposure: float | None, background: Doubles | None, **display: Any) -> npt.NDArray[Any]:
         exposure = self.exposure if exposure is None else exposure
@@ -231,8 +234,10 @@ def _pixels(radiance: Array, stage: Any, shares: Shares, exposure: float, backgr
     return to_pixels(lay_over(light, alpha, linear(background)), 0.0, dtype, **display)
 
 
-def _sixteen_bits(options: Options, stage: Any, shares: Shares, light: Array, radiance: Array) -> npt.NDArray[Any]:
+def _sixteen_bits(options: Options, stage: Any, shares: Shares, light: Array, radiance: Array, way: float
+                  ) -> npt.NDArray[Any]:
     """Automatic exposure depends on `radiance`. Instead of a transparent background, white is shown."""
+    shares = replace(shares, shapes=np.clip(shares.shapes + way * shares.error, 0.0, 1.0))
     exposure = automatic_exposure(radiance) if options.exposure is None else options.exposure
     background, _ = background_of(options)
     return _pixels(light, stage, shares, exposure, np.ones(3) if background is None else background, np.uint16)

@@ -3,7 +3,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 import numpy.typing as npt
@@ -20,6 +20,7 @@ from pt.figures._compose import around
 MOST_NOISE: Final = 1.5  # steps of 1/255; by taste
 FIRST_SAMPLES: Final = 16  # fewest samples with a stated error
 MOST_SAMPLES: Final = 128  # of a pixel; fine textures hide the remaining noise
+MOST_COVERAGE: Final = 0.25  # largest fraction of the square noise that is left to the coverage; fewer rays must not cost many samples
 WORST: Final = 1.5  # largest noise of a neighbourhood, relative to MOST_NOISE; by taste
 FLOOR: Final = 1.0  # like WORST, for a floor before its shadows are smoothed
 SHARE: Final = 1.15  # the second round's aim, relative to the allowed square error; quasi-random samples have less than predicted
@@ -27,7 +28,8 @@ LEAST_GROWTH: Final = 1.02  # smaller rounds cost more time than samples
 MOST_STEP: Final = 4.0  # most samples after a round, relative to those before
 SEQUENCES: Final = 1.0 / math.sqrt(7.0)  # the error of quasi-random points may be this fraction of the stated one
 
-Show = Callable[[Array, Array], Array]  # converts light to 16 bits, with the exposure of an image
+# Converts light to 16 bits, with the exposure of an image, and adds a multiple of its error to the coverage.
+Show = Callable[[Array, Array, float], Array]
 
 
 @dataclass(frozen=True)
@@ -51,10 +53,10 @@ class Noise:
         return f"noise {self.rms:.2g} of 255 ({self.low:.2g} to {self.high:.2g})"
 
 
-def squares_of(show: Show, radiance: npt.NDArray[np.float32], error: npt.NDArray[np.float32]) -> Doubles:
-    """Returns a quarter of each pixel's squared error, in steps of 1/255, averaged over channels."""
-    darker, brighter = (show(np.maximum(each, 0.0), radiance).astype(np.float64) for each in (radiance - error, radiance + error))
-    squares: Doubles = np.square((brighter - darker) * (0.25 * 255.0 / 65535.0)).mean(axis=2)
+def squares_of(show: Show, radiance: npt.NDArray[np.float32], error: Any, coverage: float = 0.0) -> Doubles:
+    """Returns a quarter of each pixel's squared error, in steps of 1/255, averaged over channels. coverage: 1 counts its error."""
+    low, high = (show(np.maximum(radiance + way * error, 0.0), radiance, way * coverage).astype(np.float64) for way in (-1, 1))
+    squares: Doubles = np.square((high - low) * (0.25 * 255.0 / 65535.0)).mean(axis=2)
     return squares
 
 
@@ -71,14 +73,16 @@ def until_invisible(context: Context, scene: Scene, camera: Camera, settings: Re
         return share if progress else None
 
     image = context.render(scene, camera, settings, FIRST_SAMPLES, progress=watched(0.0, done))
+    coverage = float(squares_of(show, image.radiance, 0.0, 1.0)[covered].mean()) if covered.any() else 0.0
+    most = math.sqrt(MOST_NOISE**2 - min(coverage, MOST_COVERAGE * MOST_NOISE**2))
     while not ended:
         squares = squares_of(show, image.radiance, image.standard_error)
         noise, counts = Noise.of(squares[covered]), image.sample_count[::TILE_SIDE, ::TILE_SIDE].astype(np.float64)
-        goals = _goals(squares, covered, counts, noise)
+        goals = _goals(squares, covered, counts, noise, most)
         is_small = goals.sum() < LEAST_GROWTH * counts.sum() and (goals < 1.5 * counts).all()
-        if (goals == counts).all() or is_small and (noise.high <= MOST_NOISE or counts.max() == MOST_SAMPLES):
+        if (goals == counts).all() or is_small and (noise.high <= most or counts.max() == MOST_SAMPLES):
             break
-        needed = np.maximum(goals, counts * (noise.high / MOST_NOISE)**2).sum()
+        needed = np.maximum(goals, counts * (noise.high / most)**2).sum()
         ahead = max(done, float(goals.sum() / needed))
         context.accumulate_tiles(goals - counts, progress=watched(done, ahead))
         image, done = context.image(), ahead
@@ -87,15 +91,15 @@ def until_invisible(context: Context, scene: Scene, camera: Camera, settings: Re
     return image
 
 
-def _goals(squares: Doubles, covered: Array, counts: Doubles, noise: Noise) -> Doubles:
+def _goals(squares: Doubles, covered: Array, counts: Doubles, noise: Noise, aim: float) -> Doubles:
     """Returns each tile's samples after the next round. The least total reaches the noise with counts proportional to
     the root of the variance. Variances are means over neighbouring tiles, because a single one may be small by chance."""
     pixels = _by_tiles(covered | (squares > 0.0))
     variances = around(_by_tiles(squares) * counts, 3) / np.maximum(around(pixels, 3), 1.0) * (pixels > 0.0)
     weights = variances * _by_tiles(covered)
-    needed = variances / np.square(np.where(weights > 0.0, WORST, FLOOR) * MOST_NOISE)
-    if noise.high > MOST_NOISE:
-        most = (SHARE if counts.max() == FIRST_SAMPLES else 1.0) * (MOST_NOISE * noise.rms / noise.high)**2 * float(covered.sum())
+    needed = variances / np.square(np.where(weights > 0.0, WORST, FLOOR) * aim)
+    if noise.high > aim:
+        most = (SHARE if counts.max() == FIRST_SAMPLES else 1.0) * (aim * noise.rms / noise.high)**2 * float(covered.sum())
         roots = np.sqrt(weights)
         low, high = 0.0, float(roots.sum()) / most
         for _ in range(50):

@@ -13,6 +13,8 @@ from pt._enums import Format, Quantity
 from pt._fit import Array, Doubles
 
 PER_SIDE: Final = 4
+FINE: Final = 8  # rays a side if the coverage from PER_SIDE is rough
+ROUGH: Final = 0.02  # largest error of the coverage from PER_SIDE, rms over covered pixels
 MOST_PER_SIDE: Final = 32  # the coverage from 32 x 32 random rays has a standard deviation of up to 0.5 / 32 = 0.016
 MOST_RAYS: Final = 2**32 - 1
 BAND_ROWS: Final = 32
@@ -31,7 +33,8 @@ INK: Final = 0.2  # fraction of a shape's color in its outline, in the illustrat
 @dataclass(frozen=True)
 class Shares:
     """Values of pixels from first hits: coverage by shapes and outlines, the shapes' mean depth, and the fraction by which they fade.
-    `flat` has unlit colors. `seen` masks labels that nothing hides. `floor` is the radiance beside shapes."""
+    `error` is the standard error of `shapes`. `flat` has unlit colors. `seen` masks labels that nothing hides. `floor` is the radiance
+    beside shapes."""
 
     shapes: Doubles
     outlines: Doubles
@@ -41,6 +44,11 @@ class Shares:
     ink: Any = OUTLINE_LIGHT
     seen: Array | None = None
     floor: Array | None = None
+    error: Any = 0.0
+
+    @property
+    def is_rough(self) -> bool:
+        return float(np.square(self.error).sum()) > ROUGH**2 * np.count_nonzero(self.shapes)
 
 
 @dataclass(frozen=True)
@@ -67,7 +75,7 @@ def line_width(size: tuple[int, int]) -> float:
 
 def rays_per_side(samples: float, pixels: int) -> int:
     most = min(MOST_PER_SIDE, math.isqrt(MOST_RAYS // pixels))
-    return max(min(math.ceil(math.sqrt(samples)), most), PER_SIDE)
+    return max(min(math.ceil(math.sqrt(samples)), most) & ~1, PER_SIDE)
 
 
 def read_shares(context: Context, camera: Camera, settings: RenderSettings, overlaid: Overlaid, per_side: int = PER_SIDE
@@ -76,7 +84,7 @@ def read_shares(context: Context, camera: Camera, settings: RenderSettings, over
     width, height = settings.width, settings.height
     shares = Shares(np.zeros((height, width)), np.zeros((height, width)))
     margin = math.ceil(0.5 * WIDER * line_width((width, height))) + 1 if overlaid.outlines else 0
-    means = np.zeros((height, width))
+    means, error = np.zeros((height, width)), np.zeros((height, width))
     band = max(BAND_ROWS * PER_SIDE**2 // per_side**2, 1)
     for first in range(0, height, band):
         end = min(first + band, height)
@@ -84,23 +92,27 @@ def read_shares(context: Context, camera: Camera, settings: RenderSettings, over
         objects, depths = _first_hits(context, settings, top, bottom, per_side, overlaid.outlines or overlaid.depths)
         index = objects - np.uint32(overlaid.first)
         wanted = slice((first - top) * per_side, (end - top) * per_side)
-        shares.shapes[first:end] = _share(index[wanted] < overlaid.count, per_side)
+        hits = index[wanted] < overlaid.count
+        shares.shapes[first:end] = _share(hits, per_side)
+        error[first:end] = np.abs(_share(hits, per_side, -1))
         if overlaid.outlines:
             pixels = pixels_per_length(camera, height, depths)
             covered = _outlines(index, depths, overlaid, pixels, line_width((width, height)))
             shares.outlines[first:end] = _share(covered[wanted], per_side)
         if overlaid.depths:
-            hits = (index < overlaid.count)[wanted].reshape(end - first, per_side, width, per_side)
+            hits = hits.reshape(end - first, per_side, width, per_side)
             sums = depths[wanted].reshape(hits.shape).sum(axis=(1, 3), where=hits, dtype=np.float64)
             means[first:end] = sums / np.maximum(hits.sum(axis=(1, 3)), 1)
-    return replace(shares, depths=means if overlaid.depths else None)
+    return replace(shares, depths=means if overlaid.depths else None, error=error)
 
 
-def _share(hits: Array, per_side: int) -> Doubles:
-    counts: Any = hits.view(np.uint8)
-    rows: Any = sum(counts[i::per_side] for i in range(per_side))
-    rows = rows.astype(np.uint16)
-    cells: Doubles = sum(rows[:, i::per_side] for i in range(per_side)) / per_side**2
+def _share(hits: Array, per_side: int, sign: int = 1) -> Doubles:
+    """sign = -1: half the difference between the two colors of a checkerboard of rays, whose square estimates the variance of the share
+    from all rays."""
+    counts: Any = hits.view(np.int8)
+    rows: Any = sum(sign**i * counts[i::per_side] for i in range(per_side))
+    rows = rows.astype(np.int16)
+    cells: Doubles = sum(sign**i * rows[:, i::per_side] for i in range(per_side)) / per_side**2
     return cells
 
 
