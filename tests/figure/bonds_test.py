@@ -68,8 +68,7 @@ class Known(unittest.TestCase):
         for (basis, numbers, length), times, each in ((diamond, 1, 4), (diamond, 2, 4), (salt, 1, 6), (salt, 2, 6)):
             particles = crystal(basis, numbers, length, times)
             turns = np.random.default_rng(1).integers(-2, 3, particles.positions.shape)
-            left = Particles(particles.positions + turns * length * times, elements=particles.elements,
-                             cell=particles.cell)
+            left = Particles(particles.positions + turns * length * times, elements=particles.elements, cell=particles.cell)
             for some in (particles, left):
                 found = found_in(some)
                 np.testing.assert_array_equal(np.bincount(found.atoms), np.full(len(numbers) * times**3, each))
@@ -231,15 +230,13 @@ class Looks(unittest.TestCase):
         np.testing.assert_array_equal(first.drawn.radii, second.drawn.radii)
 
     def test_halves_have_the_colors_of_their_atoms(self):
-        options = {"radius": 0.2, "color": np.uint8([[255, 0, 0], [0, 0, 255]]), "size": (61, 31), "view": "front",
-                   "samples": 4}
+        options = {"radius": 0.2, "color": np.uint8([[255, 0, 0], [0, 0, 255]]), "size": (61, 31), "view": "front", "samples": 4}
         with pt.Context() as context:
             bonded = pt.figure(PAIR, bonds=2.5, bond_radius=0.15, context=context, **options).to_srgb8()
             bare = pt.figure(PAIR, context=context, **options).to_srgb8()
             walled = Particles(PAIR.positions, cell=Cell.of([4, 4, 4], (-2, -2, -2)))
             through = pt.figure(walled, bonds=2.5, bond_radius=0.15, box="none", context=context, **options)
-            without = pt.figure(walled, bonds=2.5, bond_radius=0.15, box="none", wall_bonds="none", context=context,
-                                **options)
+            without = pt.figure(walled, bonds=2.5, bond_radius=0.15, box="none", wall_bonds="none", context=context, **options)
         left, right = bonded[15, 23].astype(int), bonded[15, 37].astype(int)
         self.assertTrue(left[0] > 2 * left[2] and right[2] > 2 * right[0], (left, right))
         self.assertTrue((bare[15, 20:41] == 255).all())

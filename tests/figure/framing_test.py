@@ -29,8 +29,7 @@ class FarAway(unittest.TestCase):
     def test_one_ion_far_away_does_not_decide_the_picture(self):
         elements = np.array([8, 1, 1, 8, 1, 11], np.uint8)
         whole = Particles(np.vstack([WATERS, [1000, 0, 0]]), elements=elements)
-        staged, near = (Staged.of(each, Options(style="matte")) for each in (
-            whole, Particles(WATERS, elements=elements[:5])))
+        staged, near = (Staged.of(each, Options(style="matte")) for each in (whole, Particles(WATERS, elements=elements[:5])))
         self.assertEqual((staged.layout.camera, len(staged.drawn.centers)), (near.layout.camera, 5))
         # The median of x is (0.96 + 3) / 2 = 1.98. An oxygen of radius 0.66 reaches 2.64 from it, and the ion of radius 1.66 reaches
         # 999.68.

@@ -108,8 +108,7 @@ class Categories(unittest.TestCase):
         self.assertEqual([tuple(each) for each in colored(None, water)[0].tolist()[:2]], [oxygen, (230, 230, 230)])
         self.assertEqual(colored({"O": "#0a0b0c"}, water)[0][0].tolist(), [10, 11, 12])
         self.assertEqual(colored("O=#0a0b0c,H=#010203", water)[0][:2].tolist(), [[10, 11, 12], [1, 2, 3]])
-        self.assertIsInstance(colored("id", Particles(POSITIONS[:3], {"id": np.array([5, 7, 5])}), categories=True)[1],
-                              Swatches)
+        self.assertIsInstance(colored("id", Particles(POSITIONS[:3], {"id": np.array([5, 7, 5])}), categories=True)[1], Swatches)
 
     def test_colors_that_are_given(self):
         given = np.random.default_rng(9).integers(0, 256, (COUNT, 3)).astype(np.uint8)
@@ -199,5 +198,3 @@ class Background(unittest.TestCase):
                 return np.where(x <= 0.04045, x / 12.92, ((x + 0.055) / 1.055)**2.4)
             over = linear(clear[:, :, :3] / 255.0) * alpha + (1 - alpha)
             self.assertLess(np.abs(over - linear(white / 255.0)).max(), 3 / 255)
-            floor = picture(floor=True, view="top")
-            self.assertTrue((floor.min(axis=(0, 1)) < white.min(axis=(0, 1))).any() or (floor != white).any())

@@ -174,19 +174,10 @@ class Files(unittest.TestCase):
                 self.read("a.pcd", content.encode())
 
     def test_las(self):
-        if installed("laspy"):
-            import laspy
-            las = laspy.LasData(laspy.LasHeader(point_format=3, version="1.2"))
-            las.x, las.y, las.z = PLACES.T
-            las.red, las.green, las.blue = np.array([[255, 0, 0], [0, 255, 0], [0, 0, 255]])
-            buffer = io.BytesIO()
-            las.write(buffer)
-            found = self.read("a.las", buffer.getvalue())
-        else:
-            columns = {"X": [0] * 3, "intensity": [0] * 3, "red": [255, 0, 0], "green": [0, 255, 0], "blue": [0, 0, 255]}
-            las = type("Las", (), {"xyz": PLACES, "__getitem__": lambda self, key: np.array(columns[key], np.uint16),
-                                   "point_format": types.SimpleNamespace(dimension_names=columns)})()
-            found = self.read("a.las", b"LASF", laspy=types.SimpleNamespace(read=lambda path: las))
+        columns = {"X": [0] * 3, "intensity": [0] * 3, "red": [255, 0, 0], "green": [0, 255, 0], "blue": [0, 0, 255]}
+        las = type("Las", (), {"xyz": PLACES, "__getitem__": lambda self, key: np.array(columns[key], np.uint16),
+                               "point_format": types.SimpleNamespace(dimension_names=columns)})()
+        found = self.read("a.las", b"LASF", laspy=types.SimpleNamespace(read=lambda path: las))
         np.testing.assert_allclose(found.positions, PLACES, atol=0.005)
         np.testing.assert_array_equal(found.colors, 255 * np.eye(3))
         self.assertIn("intensity", found.columns)

@@ -123,8 +123,7 @@ class Frames(InAFolder):
             for frame in 5000, -5001:
                 self.assertEqual(self.refusal(f"a.xyz{end}", pack(text), frame=frame),
                                  f"a.xyz{end}: frame {frame}: the data have 5000 frames, from 0 or -5000 to 4999")
-        self.assertEqual([each.positions[0, 0] for each in frames(self.folder / "a.xyz.gz", 4990, -3)],
-                         list(range(4990, 4998)))
+        self.assertEqual([each.positions[0, 0] for each in frames(self.folder / "a.xyz.gz", 4990, -3)], list(range(4990, 4998)))
 
     def test_errors_of_other_frames_do_not_matter(self):
         self.assertEqual(len(self.read("a.xyz", "1\n\nH 0 zero 0\n" + many_frames(1))), 1)

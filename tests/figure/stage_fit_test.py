@@ -43,13 +43,11 @@ class Fit(unittest.TestCase):
                 for projection in ("perspective", "orthographic"):
                     for size in (None, (300, 100), (100, 300)):
                         with self.subTest(kind=kind, view=view, projection=projection, size=size):
-                            _, layout = layout_of(Particles(centers), radius=radii, view=view, projection=projection,
-                                                  size=size)
+                            _, layout = layout_of(Particles(centers), radius=radii, view=view, projection=projection, size=size)
                             sides = [float(rim.max()) for rim in rims(layout.camera, aspect_of(layout), centers, radii)]
                             used = 1 - 2 * MARGIN
                             self.assertLess(max(sides), used + 1e-9)
-                            touched = [abs(low - used) < 1e-9 and abs(high - used) < 1e-9
-                                       for low, high in (sides[:2], sides[2:])]
+                            touched = [abs(low - used) < 1e-9 and abs(high - used) < 1e-9 for low, high in (sides[:2], sides[2:])]
                             self.assertTrue(any(touched), sides)
 
     def test_corners_of_a_cell_are_in_the_picture_too(self):
@@ -141,8 +139,7 @@ class Series(unittest.TestCase):
             self.assertEqual(each.layout, first.layout)
             self.assertEqual((each.drawn.legend.low, each.drawn.legend.high), (-2.0, 595.0))
             self.assertEqual(float(each.drawn.radii[0]), typical_radius(trajectory[0].positions))
-            sides = [float(rim.max()) for rim in rims(each.layout.camera, 1.5, particles.positions,
-                                                      each.drawn.radii[0])]
+            sides = [float(rim.max()) for rim in rims(each.layout.camera, 1.5, particles.positions, each.drawn.radii[0])]
             self.assertLess(max(sides), 1 - 2 * MARGIN + 1e-9)
         self.assertAlmostEqual(max(sides), 1 - 2 * MARGIN)
 

@@ -77,8 +77,7 @@ class Lines(unittest.TestCase):
         for size in ((1250, 100), (200, 100)):
             for projection in ("perspective", "orthographic"):
                 def width():
-                    staged = Staged.of(flat, Options(radius=0.01, size=size, projection=projection, view="front",
-                                                        box="lines"))
+                    staged = Staged.of(flat, Options(radius=0.01, size=size, projection=projection, view="front", box="lines"))
                     shapes = shares_of(staged, self.context).shapes[20:80]
                     return shapes.sum(axis=1).mean() * 0.5 * np.cos(np.arctan(2.3 / 6))
                 expected = 1.0 if size[0] == 200 else 2.0

@@ -156,8 +156,7 @@ def _with_extent(particles: Particles) -> Particles:
 def _put_labels(particles: Particles, chosen: dict[str, str]) -> None:
     """A column `type` has elements if most of its words are element symbols."""
     columns = particles.columns
-    element, kind = (chosen.get(role) or first_of(columns, names) for role, names in
-                     (("element", ELEMENTS), ("type", TYPES)))
+    element, kind = (chosen.get(role) or first_of(columns, names) for role, names in (("element", ELEMENTS), ("type", TYPES)))
     for source in (element, kind):
         if source is None or (source != element and _are_numbers(columns[source])):
             continue

@@ -24,8 +24,7 @@ RGB: TypeAlias = tuple[int, ...]
 
 PLAIN: Final = "#96aabe"
 # Okabe and Ito 2008, "Color Universal Design". The first two also differ most in lightness.
-PALETTE: Final = ((0, 114, 178), (230, 159, 0), (0, 158, 115), (213, 94, 0), (86, 180, 233), (204, 121, 167),
-                  (240, 228, 66))
+PALETTE: Final = ((0, 114, 178), (230, 159, 0), (0, 158, 115), (213, 94, 0), (86, 180, 233), (204, 121, 167), (240, 228, 66))
 PALE: Final = 0.6  # distance of carbon's shade from white, relative to the column's color
 TINT: Final = 0.6  # fraction of the element's own color, so that N, O and S stay recognizable
 MOST_CATEGORIES: Final = 1000
@@ -262,8 +261,7 @@ def _of_numbers(values: Array, title: str, given: Options, notes: list[str]) -> 
         colors[rows][bad] = no_value
         nowhere += int(np.count_nonzero(bad))
     if nowhere:
-        notes.append(f"{nowhere} particles have no {title or 'value'}{' above 0' if log else ''}: they are "
-                     f"{given.nan_color}")
+        notes.append(f"{nowhere} particles have no {title or 'value'}{' above 0' if log else ''}: they are {given.nan_color}")
     return colors, ColorBar(title, low, high, norm, colormap, no_value if nowhere else None)
 
 

@@ -30,7 +30,7 @@ from pt.figures._framing import narrow_note
 from pt.figures._layout import Layout, View
 from pt.figures._noise import Noise, squares_of, until_invisible
 from pt.figures._options import Options, described
-from pt.figures._overlay import FINE, INK, Overlaid, Shares, line_width, pixels_per_length, rays_per_side, read_shares
+from pt.figures._overlay import FINE, INK, ROUGH, Overlaid, Shares, line_width, pixels_per_length, rays_per_side, read_shares
 from pt.figures._particles import Particles
 from pt.figures._picture import PAGES, Picture, background_of, strip_of
 from pt.figures._rods import cell_edges
@@ -150,7 +150,7 @@ class Staged:
         overlaid = replace(overlaid, outlines=False)
         if solid is not None:
             context.set_scene(scene)
-        if opacities is not None or shares.is_rough:
+        if opacities is not None or np.square(shares.error).sum() > ROUGH**2 * np.count_nonzero(shares.shapes):
             shares = replace(read_shares(context, camera, settings, overlaid, FINE), outlines=shares.outlines)
         shares = replace(shares, seen=seen)
         shares = self._with_look(context, settings, shares)
@@ -276,8 +276,7 @@ def _with_keywords(make: Callable[P, Options]) -> Callable[Concatenate[Any, P], 
     """
     first = inspect.Parameter("data", inspect.Parameter.POSITIONAL_ONLY, annotation=Any)
     keywords = inspect.signature(make)
-    vars(figure)["__signature__"] = keywords.replace(parameters=[first, *keywords.parameters.values()],
-                                                     return_annotation=Figure)
+    vars(figure)["__signature__"] = keywords.replace(parameters=[first, *keywords.parameters.values()], return_annotation=Figure)
     figure.__qualname__ = "figure"
     return figure
 

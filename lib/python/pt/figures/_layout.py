@@ -45,8 +45,7 @@ class View:
     @staticmethod
     def through(camera: Camera, up: Direction, size: tuple[int, int], scale: float) -> View:
         right, above, back = camera.axes()
-        return View(Compass.of(up_vector(up)), np.array([right, above, -back]), size, "",
-                    camera=camera._scaled(scale))
+        return View(Compass.of(up_vector(up)), np.array([right, above, -back]), size, "", camera=camera._scaled(scale))
 
     @staticmethod
     def of(balls: Balls, view: Direction, up: Direction, projection: str, size: tuple[int, int] | None,
@@ -116,8 +115,7 @@ class Layout:
             height = float(max(extents.size[1], extents.size[0] / aspect)) / (1.0 - 2.0 * MARGIN)
             distance = float(extents.size[2]) + height
             position = center - distance * forward
-            camera = Camera(position, position + distance * forward, axes[1], vertical_extent=height,
-                            projection="orthographic")
+            camera = Camera(position, position + distance * forward, axes[1], vertical_extent=height, projection="orthographic")
         else:
             position = apex(reaches[7:11], axes, pyramid(view.tangents))
             if view.spin is not None:
@@ -144,6 +142,5 @@ def _lens(distance: float, deep: float) -> dict[str, Any]:
 
 def _rotation(axis: Doubles, angle: float) -> Doubles:
     crossed = np.cross(axis, np.eye(3)).T
-    result: Doubles = (math.cos(angle) * np.eye(3) + math.sin(angle) * crossed +
-                       (1.0 - math.cos(angle)) * np.outer(axis, axis))
+    result: Doubles = (math.cos(angle) * np.eye(3) + math.sin(angle) * crossed + (1.0 - math.cos(angle)) * np.outer(axis, axis))
     return result

@@ -20,8 +20,6 @@ MOST_RAYS: Final = 2**32 - 1
 BAND_ROWS: Final = 32
 LEAST_STEP: Final = 0.1
 LEAST_RADIUS: Final = 2.5
-
-
 OUTLINE_LIGHT: Final = 0.01
 SMALL_STEP: Final = 1.0  # in radii; by taste, like the next four values
 LARGE_STEP: Final = 8.0
@@ -45,10 +43,6 @@ class Shares:
     seen: Array | None = None
     floor: Array | None = None
     error: Any = 0.0
-
-    @property
-    def is_rough(self) -> bool:
-        return float(np.square(self.error).sum()) > ROUGH**2 * np.count_nonzero(self.shapes)
 
 
 @dataclass(frozen=True)

@@ -85,8 +85,7 @@ def opacities_of(particles: Particles, opacity: Opacity) -> Array | None:
     if types:
         raise ValueError(f"opacity: {next(iter(types))!r} must be a selection, like element O")
     base = 1.0 if base is None else base
-    shares = _numbers("opacity", _number_or_column(particles, base) if isinstance(base, str) else base,
-                      len(particles.positions))
+    shares = _numbers("opacity", _number_or_column(particles, base) if isinstance(base, str) else base, len(particles.positions))
     if picks:
         shares = np.array(np.broadcast_to(shares, len(particles)), np.float64)
         for selection, number in picks.items():
@@ -225,8 +224,7 @@ def _neighbour_distances(positions: Array) -> tuple[Array, Array]:
         pairs += len(others)
         if pairs > MOST_PAIRS:
             break
-    return (np.array([each[0] for each in found if len(each)]),
-            np.array([each[fourth] for each in found if len(each) > fourth]))
+    return (np.array([each[0] for each in found if len(each)]), np.array([each[fourth] for each in found if len(each) > fourth]))
 
 
 def _near(positions: Array, places: Doubles, low: Doubles, side: float) -> tuple[Doubles, Array, Array]:

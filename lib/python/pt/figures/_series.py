@@ -126,5 +126,4 @@ def turntable(particles: Particles, count: int, options: Options) -> Iterator[St
     drawn = prepare(particles, options)
     view = view_of(drawn, options, turns=True)
     for k in range(count):
-        turned = view.turned(2.0 * math.pi * k / count)
-        yield Staged.seen(drawn, turned, options)
+        yield Staged.seen(drawn, view.turned(2.0 * math.pi * k / count), options)
