@@ -93,8 +93,8 @@ class Colors(unittest.TestCase):
         colors, legend = colors_of(peptide(), Options(color="chain+element"), [])
         self.assertEqual(legend.names, ("A", "B"))
         np.testing.assert_array_equal(np.unique(colors[:18:2], axis=0), legend.colors[:1])
-        between = (colors[1].astype(float) - legend.colors[0]) / (elements.COLORS[8] - legend.colors[0].astype(float))
-        np.testing.assert_allclose(between, 0.6, atol=0.03)
+        own = 255 + 0.75 * (elements.COLORS[8].astype(float) - 255)
+        np.testing.assert_allclose(colors[1], 0.4 * legend.colors[0] + 0.6 * own, atol=1)
         np.testing.assert_array_equal(colors[38:], elements.COLORS[[6, 8]])
 
     def test_elements_keep_their_hues_on_all_chains(self):

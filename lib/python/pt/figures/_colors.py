@@ -27,6 +27,7 @@ PLAIN: Final = "#96aabe"
 PALETTE: Final = ((0, 114, 178), (230, 159, 0), (0, 158, 115), (213, 94, 0), (86, 180, 233), (204, 121, 167), (240, 228, 66))
 PALE: Final = 0.6  # distance of carbon's shade from white, relative to the column's color
 TINT: Final = 0.6  # fraction of the element's own color, so that N, O and S stay recognizable
+SOFT: Final = 0.75  # like PALE, for elements
 MOST_CATEGORIES: Final = 1000
 SKEW: Final = 4.0  # limit of (full range) / (range from 1% to 99%), which is 3 for exponential values
 
@@ -136,12 +137,12 @@ def _named(particles: Particles, color: str, given: Options, notes: list[str]) -
 
 
 def _tinted(particles: Particles, name: str, given: Options, notes: list[str]) -> tuple[Bytes, Legend]:
-    """Carbon and hydrogen have a paler shade of the column's color. Other elements mix their own color into it."""
+    """Carbon and hydrogen have a paler shade of the column's color. Other elements mix in their own."""
     pale, legend = _named(particles, name, given, notes)
     pale = np.broadcast_to((255.0 + PALE * (pale - 255.0)), (len(particles), 3))
     numbers = np.asarray(particles.elements)
     own = elements.COLORS[numbers].astype(np.float64)
-    tinted = np.where(np.isin(numbers, (1, 6))[:, None], pale, (1.0 - TINT) * pale + TINT * own)
+    tinted = np.where(np.isin(numbers, (1, 6))[:, None], pale, (1.0 - TINT) * pale + TINT * (255.0 + SOFT * (own - 255.0)))
     if "resname" in particles.columns:
         tinted[~polymers_of(particles)] = own[~polymers_of(particles)]
     if isinstance(legend, Swatches):

@@ -20,7 +20,7 @@ from pt.figures._compose import around
 MOST_NOISE: Final = 1.5  # steps of 1/255; by taste
 FIRST_SAMPLES: Final = 16  # fewest samples with a stated error
 MOST_SAMPLES: Final = 128  # of a pixel; fine textures hide the remaining noise
-MOST_COVERAGE: Final = 0.25  # largest fraction of the square noise that is left to the coverage; fewer rays must not cost many samples
+MOST_COVERAGE: Final = 0.25  # of the square noise
 WORST: Final = 1.5  # largest noise of a neighbourhood, relative to MOST_NOISE; by taste
 FLOOR: Final = 1.0  # like WORST, for a floor before its shadows are smoothed
 SHARE: Final = 1.15  # the second round's aim, relative to the allowed square error; quasi-random samples have less than predicted
@@ -28,8 +28,7 @@ LEAST_GROWTH: Final = 1.02  # smaller rounds cost more time than samples
 MOST_STEP: Final = 4.0  # most samples after a round, relative to those before
 SEQUENCES: Final = 1.0 / math.sqrt(7.0)  # the error of quasi-random points may be this fraction of the stated one
 
-# Converts light to 16 bits, with the exposure of an image, and adds a multiple of its error to the coverage.
-Show = Callable[[Array, Array, float], Array]
+Show = Callable[[Array, Array, float], Array]  # 16 bits of light, with the exposure of an image and multiple of the coverage's error
 
 
 @dataclass(frozen=True)
@@ -54,7 +53,7 @@ class Noise:
 
 
 def squares_of(show: Show, radiance: npt.NDArray[np.float32], error: Any, coverage: float = 0.0) -> Doubles:
-    """Returns a quarter of each pixel's squared error, in steps of 1/255, averaged over channels. coverage: 1 counts its error."""
+    """Returns a quarter of each pixel's squared error, in steps of 1/255, averaged over channels."""
     low, high = (show(np.maximum(radiance + way * error, 0.0), radiance, way * coverage).astype(np.float64) for way in (-1, 1))
     squares: Doubles = np.square((high - low) * (0.25 * 255.0 / 65535.0)).mean(axis=2)
     return squares

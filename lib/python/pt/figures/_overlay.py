@@ -13,9 +13,9 @@ from pt._enums import Format, Quantity
 from pt._fit import Array, Doubles
 
 PER_SIDE: Final = 4
-FINE: Final = 8  # rays a side if the coverage from PER_SIDE is rough
-ROUGH: Final = 0.02  # largest error of the coverage from PER_SIDE, rms over covered pixels
-MOST_PER_SIDE: Final = 32  # the coverage from 32 x 32 random rays has a standard deviation of up to 0.5 / 32 = 0.016
+FINE: Final = 8  # if the rms error exceeds ROUGH
+ROUGH: Final = 0.02
+MOST_PER_SIDE: Final = 32
 MOST_RAYS: Final = 2**32 - 1
 BAND_ROWS: Final = 32
 LEAST_STEP: Final = 0.1
@@ -31,8 +31,7 @@ INK: Final = 0.2  # fraction of a shape's color in its outline, in the illustrat
 @dataclass(frozen=True)
 class Shares:
     """Values of pixels from first hits: coverage by shapes and outlines, the shapes' mean depth, and the fraction by which they fade.
-    `error` is the standard error of `shapes`. `flat` has unlit colors. `seen` masks labels that nothing hides. `floor` is the radiance
-    beside shapes."""
+    `flat` has unlit colors. `seen` masks labels that nothing hides. `floor` is the radiance beside shapes. `error` belongs to `shapes`."""
 
     shapes: Doubles
     outlines: Doubles
@@ -101,8 +100,7 @@ def read_shares(context: Context, camera: Camera, settings: RenderSettings, over
 
 
 def _share(hits: Array, per_side: int, sign: int = 1) -> Doubles:
-    """sign = -1: half the difference between the two colors of a checkerboard of rays, whose square estimates the variance of the share
-    from all rays."""
+    """sign = -1: half the difference between the colors of a checkerboard of rays; its square estimates the share's variance."""
     counts: Any = hits.view(np.int8)
     rows: Any = sum(sign**i * counts[i::per_side] for i in range(per_side))
     rows = rows.astype(np.int16)
