@@ -79,9 +79,11 @@ def structs_text(headers, columns):
     for result, name, parameters in re.findall(r"typedef (\w+) \(\*(pt_\w+)\)\(([^)]*)\);", text):
         types = [python_type(kind.strip(), ()) for kind in re.findall(r"([^,]*?)\w+(?:,|$)", parameters)]
         lines.append(f"{name} = ctypes.CFUNCTYPE({', '.join(['None' if result == 'void' else NUMBERS[result], *types])})")
-    lines += ["", "", "class Struct(ctypes.Structure):", "    def __init__(self, *others: Any, **fields: Any) -> None:",
-              "        if unknown := fields.keys() - {each[0] for each in self._fields_}:",
-              '            raise TypeError(f"{type(self).__name__} has no field {min(unknown)}")',
+    lines += ["", "", "class Struct(ctypes.Structure):", '    """Refuses unknown fields, which ctypes accepts."""', "",
+              "    def __init__(self, *others: Any, **fields: Any) -> None:",
+              "        for name in fields:",
+              "            if not hasattr(type(self), name):",
+              '                raise TypeError(f"{type(self).__name__} has no field {name}")',
               '        if self._fields_[0][0] == "struct_size":', '            fields["struct_size"] = ctypes.sizeof(self)',
               "        super().__init__(*others, **fields)"]
     known = []

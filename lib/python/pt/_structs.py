@@ -14,9 +14,12 @@ pt_take_bytes_fn = ctypes.CFUNCTYPE(c_int32, c_void_p, c_void_p, c_uint64)
 
 
 class Struct(ctypes.Structure):
+    """Refuses unknown fields, which ctypes accepts."""
+
     def __init__(self, *others: Any, **fields: Any) -> None:
-        if unknown := fields.keys() - {each[0] for each in self._fields_}:
-            raise TypeError(f"{type(self).__name__} has no field {min(unknown)}")
+        for name in fields:
+            if not hasattr(type(self), name):
+                raise TypeError(f"{type(self).__name__} has no field {name}")
         if self._fields_[0][0] == "struct_size":
             fields["struct_size"] = ctypes.sizeof(self)
         super().__init__(*others, **fields)
