@@ -89,6 +89,7 @@ class Coursework(CommandLineTest):
                        check=True)
 
     def verdict(self, step):
+        """Returns the exit status, the lines after the table of checks, and the messages."""
         done = subprocess.run([PT, "course", "--check", step, "--shader-dir", self.path("kernels")], capture_output=True, text=True)
         lines = done.stdout.splitlines()
         return done.returncode, lines[lines.index("", 2) + 1:] if "" in lines[2:] else lines, done.stderr
@@ -97,8 +98,8 @@ class Coursework(CommandLineTest):
         with self.subTest(mistake=name or "unknown"):
             self.assertEqual(right.count(code), 1, code)
             self.write("kernels/pathtrace.comp", right.replace(code, wrong))
-            code, lines, errors = self.verdict(step)
-            self.assertEqual((code, errors), (8, ""))
+            status, lines, errors = self.verdict(step)
+            self.assertEqual((status, errors), (8, ""))
             self.assertTrue(lines[-1].startswith(f"wrong: {name}. " if name else "wrong: no usual mistake fits"), lines)
 
     def check(self, difference):
@@ -120,8 +121,8 @@ class Coursework(CommandLineTest):
         for step, *mistake in LATE_MISTAKES:
             self.check_mistake(without_lamps if step == "7" else last, step, *mistake)
         self.write("kernels/pathtrace.comp", last.replace("(n + 2.0) / (2.0 * PI) * lobe", "(n + 1.0) / (2.0 * PI) * lobe"))
-        code, lines, _ = self.verdict("5")
-        self.assertEqual((code, lines[0]), (0, "right"))
+        status, lines, _ = self.verdict("5")
+        self.assertEqual((status, lines[0]), (0, "right"))
         self.assertRegex(lines[1], r"^but step 3 is wrong: n \+ 1\. ")
 
     def test_the_start_is_in_its_folder_without_answers(self):
