@@ -245,26 +245,27 @@ class Looks(unittest.TestCase):
         self.assertGreater(through.camera.position[1] / without.camera.position[1], 1.3)
 
     def test_vectors(self):
-        """The longest vector is drawn 9 median radii long. A given scale applies to all vectors instead. Capsules of an arrow go from the
+        """The longest vector is twice as long as the distance of neighbours, sqrt(200). A given scale applies to all vectors instead. Capsules of an arrow go from the
         particle to the tip, and those of its head become thinner."""
-        vectors = np.array([[0.0, 0, 3], [0, 0, 0], [4, 0, 3]])
+        vectors, long = np.array([[0.0, 0, 3], [0, 0, 0], [4, 0, 3]]), 2 * np.sqrt(200)
         particles = Particles(10 * np.eye(3), dict(zip(("vx", "vy", "vz"), vectors.T)))
         for given in ("v", "vx,vy,vz", vectors):
             drawn = prepare(particles, Options(vectors=given, radius=0.5))
-            begins, ends, radii = (each.reshape(9, 2, -1) for each in (drawn.begins(drawn.rods[0]), drawn.ends(drawn.rods[0]), drawn.rods[0].radius))
-            np.testing.assert_allclose((begins[0], ends[-1]), ([[10, 0, 0], [0, 0, 10]], [[10, 0, 2.7], [3.6, 0, 12.7]]))
+            begins, ends, radii = (each.reshape(21, 2, -1) for each in (drawn.begins(drawn.rods[0]), drawn.ends(drawn.rods[0]), drawn.rods[0].radius))
+            np.testing.assert_allclose((begins[0], ends[-1]), ([[10, 0, 0], [0, 0, 10]], [[10, 0, 0.6 * long], [0.8 * long, 0, 10 + 0.6 * long]]))
             np.testing.assert_allclose(begins[1:], ends[:-1])
             self.assertTrue((np.diff(radii[1:], axis=0) < 0).all() and (radii[1] > 2 * radii[0]).all())
-            np.testing.assert_allclose((radii[0, 1, 0], drawn.settled["vector_scale"]), (0.15, 0.9))
+            np.testing.assert_allclose((radii[0, 1, 0], drawn.settled["vector_scale"]), (0.03 * long, 0.2 * long))
         drawn = prepare(particles, Options(vectors="v", vector_scale=2, where="vx > 0"))
         np.testing.assert_allclose(drawn.ends(drawn.rods[0])[-1], [8, 0, 16])
+        self.assertAlmostEqual(float(drawn.radii[0]), np.sqrt(200) / 8)
 
         def read():
             return (Particles(particles.positions, {"v[0]": vectors[:, 0] * k, "v[1]": vectors[:, 1] * k,
                                                     "v[2]": vectors[:, 2] * k}) for k in (0, 1, 2))
         staged = list(frames(read, Options(vectors="v", radius=0.5, size=(40, 30))))
-        lengths = [np.linalg.norm(each.drawn.rods[0].ways, axis=1).reshape(9, -1).sum(axis=0) for each in staged]
-        np.testing.assert_allclose(lengths[1], (2.7, 4.5))
+        lengths = [np.linalg.norm(each.drawn.rods[0].ways, axis=1).reshape(21, -1).sum(axis=0) for each in staged]
+        np.testing.assert_allclose(lengths[1], (0.6 * long, long))
         np.testing.assert_allclose(lengths[2], 2 * lengths[1])
         self.assertEqual(len(lengths[0]), 0)
 

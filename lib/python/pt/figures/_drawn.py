@@ -24,6 +24,7 @@ from pt.figures._styles import completed, groups_of, has_corners, repeated
 from pt.figures._tubes import trace_of, tubes_of
 
 LEAST_LENGTH: Final = 1e-18
+BESIDE_ARROWS: Final = 0.25  # factor of automatic radii; by taste
 
 
 @dataclass(frozen=True)
@@ -90,12 +91,14 @@ def prepare(particles: Particles, options: Options, scale: float | None = None) 
     if corners:
         particles = completed(particles, options)
     radii = radii_of(particles, options.radius, notes)
+    if options.vectors is not None and options.radius is None and particles.radii is None:
+        radii = radii * radii.dtype.type(BESIDE_ARROWS)
     colors, legend = colors_of(particles, options, notes)
     opacities = opacities_of(particles, options.opacity)
     rods: list[Rods] = []
     settled: dict[str, float] = {}
     if options.vectors is not None:
-        vectors, vector_scale = vectors_of(particles, options.vectors, options.vector_scale, radii)
+        vectors, vector_scale = vectors_of(particles, options.vectors, options.vector_scale)
         rods.append(vectors)
         settled.update({"vector_scale": vector_scale} if vector_scale else {})
     tubes = None

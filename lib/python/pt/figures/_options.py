@@ -116,7 +116,7 @@ class Options:
         "solvent-accessible, which adds 1.4; radii of types and selections, \"O=0.7,H=0.3\", \"covalent,chain A=2\"; any of these times "
         "a factor, \"0.5*diameter\". In Python also {\"O\": 0.7} "
         "and arrays. Default: the data's radii; else covalent radii if distances are in angstroms, up to 3 times as large for "
-        "neighbours that are not bonded; else half of the usual distance of neighbours")
+        "neighbours that are not bonded; else half of the usual distance of neighbours; with vectors a quarter of that")
 
     opacity: Opacity = _particles(
         None, "A|COLUMN", "probability from 0 to 1 that a ray hits a particle, its bonds and its vector, so n overlapping particles transmit "
@@ -138,7 +138,7 @@ class Options:
     vectors: Vectors = _particles(None, "vx,vy,vz", "three columns, or their common name, such as v or velocity; in Python also an array "
                                   "of shape (n, 3). Each vector is an arrow from the particle's center, in the particle's color")
     vector_scale: float | None = _particles(
-        None, "S", "drawn length of a vector of length 1. Default: the longest vector has 9 median radii", read=float,
+        None, "S", "drawn length of a vector of length 1. Default: the longest vector is twice as long as the usual distance of neighbours", read=float,
         rule=(lambda scale: 0.0 < scale < math.inf, "> 0 and finite"))
 
     size: tuple[int, int] | None = _view(None, "WxH", "pixels of the whole picture. Default: as many pixels as 1024x768, in the "

@@ -11,15 +11,16 @@ from pt.figures._cell import Cell
 from pt.figures._colors import components
 from pt.figures._options import Vectors
 from pt.figures._particles import Particles
+from pt.figures._radii import typical_radius
 from pt.figures._select import column
 
-LONGEST: Final = 9.0  # length of the longest vector in median particle radii; by taste
-WIDTH: Final = 0.3  # largest radius of a shaft, in median radii; by taste, like the next four
-HEAD: Final = 2.5  # largest length, in median radii
+LONGEST: Final = 4.0  # length of the longest arrow, in typical radii; by taste, like the next five values
+WIDTH: Final = 0.03  # largest radius of a shaft, relative to the longest arrow
+HEAD: Final = 0.28  # largest length, relative to the longest arrow
 MOST_HEAD: Final = 0.4  # relative to the arrow
 SLOPE: Final = 0.35  # radius of the head's base, relative to its length
 SHAFT: Final = 0.4  # relative to the head's base
-PIECES: Final = 8  # capsules of a head
+PIECES: Final = 20  # capsules of a head
 
 
 @dataclass(frozen=True)
@@ -51,7 +52,7 @@ class Rods:
                        starts=None if self.starts is None else self.starts * scale)
 
 
-def vectors_of(particles: Particles, given: Vectors, scale: float | None, radii: Array) -> tuple[Rods, float]:
+def vectors_of(particles: Particles, given: Vectors, scale: float | None) -> tuple[Rods, float]:
     if isinstance(given, str):
         names = components(particles, given)
         if len(names) != 3:
@@ -64,20 +65,20 @@ def vectors_of(particles: Particles, given: Vectors, scale: float | None, radii:
     check_finite("vectors", vectors)
     vectors = vectors.astype(np.float64)
     lengths = np.linalg.norm(vectors, axis=1)
-    longest, unit = float(lengths.max()), float(np.median(radii))
+    longest = float(lengths.max())
     if scale is None:
-        scale = LONGEST * unit / longest if longest > 0.0 else 0.0
+        scale = LONGEST * typical_radius(particles.positions) / longest if longest > 0.0 else 0.0
     atoms = np.flatnonzero(lengths)
-    return _arrows(atoms, vectors[atoms] * scale, unit), scale
+    return _arrows(atoms, vectors[atoms] * scale, longest * scale), scale
 
 
-def _arrows(atoms: Array, ways: Doubles, unit: float) -> Rods:
+def _arrows(atoms: Array, ways: Doubles, longest: float) -> Rods:
     """Heads are cones of ever thinner capsules."""
     lengths = np.linalg.norm(ways, axis=1)
-    heads = np.minimum(HEAD * unit, MOST_HEAD * lengths)
+    heads = np.minimum(HEAD * longest, MOST_HEAD * lengths)
     left = np.arange(PIECES, -1.0, -1.0)[:, None] / PIECES
     places = np.concatenate([np.zeros((1, len(ways))), 1.0 - left * heads / lengths])
-    radii = np.concatenate([np.minimum(WIDTH * unit, SHAFT * SLOPE * heads)[None], SLOPE * heads * (left[:-1] - 0.5 / PIECES)])
+    radii = np.concatenate([np.minimum(WIDTH * longest, SHAFT * SLOPE * heads)[None], SLOPE * heads * (left[:-1] - 0.5 / PIECES)])
     starts, steps = (each[:, :, None] * ways for each in (places[:-1], np.diff(places, axis=0)))
     rows = np.tile(atoms, PIECES + 1)
     return Rods(rows, rows, steps.reshape(-1, 3), radii.reshape(-1), starts.reshape(-1, 3))

@@ -13,7 +13,7 @@ from pt._fit import Doubles
 from pt.figures._accept import load
 from pt.figures._bonds import BALL_SHARE
 from pt.figures._colors import ColorBar, Legend, Swatches, colors_of, joined
-from pt.figures._drawn import Drawn, prepare
+from pt.figures._drawn import BESIDE_ARROWS, Drawn, prepare
 from pt.figures._figure import Staged, context_of, view_of
 from pt.figures._layout import Layout, View
 from pt.figures._options import Options, Radius
@@ -118,7 +118,8 @@ def _rule(particles: Particles, drawn: Drawn, options: Options) -> Radius:
     factor = covalent_factor(particles)
     if factor is None:
         return float(drawn.radii[0]) / drawn.scale
-    return f"{(BALL_SHARE if options.drawn_model in ('ball-and-stick', 'tube') else 1.0) * factor!r}*covalent"
+    share = 1.0 if options.vectors is None else BESIDE_ARROWS
+    return f"{(BALL_SHARE if options.drawn_model in ('ball-and-stick', 'tube') else 1.0) * share * factor!r}*covalent"
 
 
 def turntable(particles: Particles, count: int, options: Options) -> Iterator[Staged]:
