@@ -91,9 +91,9 @@ class Command(unittest.TestCase):
 
     def test_pictures_and_film(self):
         self.farm("-o", "a.exr", "-o", "a.png", "--film", "a.ptfilm", "--layers", "standard-error", "--spp", "40",
-                  "-q", "--set", "film.exposure=-1", "--tonemap", "agx", "--gamma", "2")
+                  "-q", "--set", "film.exposure=-1", "--tonemap", "agx", "--gamma", "2", "--white", "1,0.5,0.8")
         self.pt("render", "scene.json", "-o", "b.exr", "-o", "b.png", "--layers", "standard-error", "--spp", "40",
-                "--set", "film.exposure=-1", "--tonemap", "agx", "--gamma", "2")
+                "--set", "film.exposure=-1", "--tonemap", "agx", "--gamma", "2", "--white", "1,0.5,0.8")
         for one, other in (("a.exr", "b.exr"), ("a.png", "b.png")):
             self.same(one, other)
         self.pt("compare", "--layer", "standard_error", "a.exr", "b.exr", "--max-mse", "0")

@@ -40,7 +40,7 @@ class Frame:
         assert self.pixels is not None
         layer = [number if math.isfinite(number) else None for number in self.pixels[y, x].tolist()]
         return {"x": x, "y": y, "radiance": radiance, "samples": int(samples[0]), "layer": layer,
-                "shown": shown(radiance).tolist(),                 "error": error if all(map(math.isfinite, error)) else None}
+                "shown": shown(radiance).tolist(), "error": error if all(map(math.isfinite, error)) else None}
 
 
 def facts_of(estimate: ErrorEstimate) -> dict[str, Any]:

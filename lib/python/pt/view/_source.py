@@ -82,7 +82,8 @@ class FigureSource:
         options = self.options
         self.staged = Staged.of(load(str(self.path), frame=options.frame, model_number=options.model_number, **options.reading), options)
         settings = RenderSettings(*self.staged.layout.size, max_path_length=options.max_path_length, seed=options.seed)
-        return Shown(self.staged.scene, self.staged.layout.camera, settings, Display("auto" if options.exposure is None else options.exposure), [self.path])
+        display = Display("auto" if options.exposure is None else options.exposure)
+        return Shown(self.staged.scene, self.staged.layout.camera, settings, display, [self.path])
 
     def explained(self, error: Exception) -> str:
         return str(error)
