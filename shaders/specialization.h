@@ -72,8 +72,8 @@ constexpr bool samples_lobes(uint ESTIMATOR) { return PT_SAMPLES_LOBES; }
 #undef PT_SPECIALIZED
 
 #ifndef __cplusplus
-const bool STARTS_ON_DISC = PROJECTION == PROJECTION_ORTHOGRAPHIC || LENS == 1u; // camera rays start at different points
-const uint CAMERA_BLOCKS = 1u + LENS;                                       // blocks of a camera ray
+const bool STARTS_ON_DISC = PROJECTION == PROJECTION_ORTHOGRAPHIC || LENS == 1u; // starts of camera rays differ
+const uint CAMERA_BLOCKS = 1u + LENS;                                            // blocks of a camera ray
 #endif
 
 #endif

@@ -18,7 +18,7 @@
 namespace cli {
 namespace {
 
-constexpr std::uint64_t run_count = 6;        // odds of 1/2 disturb all of six runs in 1 of 64 trials
+constexpr std::uint64_t run_count = 6;        // if half are disturbed, all are in 1 of 64
 constexpr std::uint32_t run_samples = 64;     // milliseconds
 constexpr std::uint32_t tree_run_samples = 8; // walks take eight times as long
 constexpr std::uint32_t trial_width = 64;     // full vectors of 16 pixels

@@ -17,7 +17,7 @@ SceneFile lamps_above_a_floor(std::uint32_t side, std::uint32_t sample_count);
 
 using Channels = std::array<double, 3>;
 
-// Turns a uniform direction into a kernel's.
+// Turns a uniform direction into the kernel's.
 using Turn = std::function<glm::dvec3(const glm::dvec3 &direction, const glm::dvec3 &normal)>;
 // Weight of a direction with this cosine to the normal; 0 below the surface.
 using Weight = std::function<double(double cosine)>;
@@ -69,7 +69,7 @@ inline constexpr Channels disc_emission{4.0, 0.5, 0.1};
 // At the picture's middle.
 double disc_cosine();
 
-// A blue ball hides a floor from the camera, then a red lamp from the floor, and always one of them. The sky is green.
+// A moving blue ball hides a floor from the camera, then a red lamp from the floor. The sky is green.
 SceneFile ball_before_camera_and_lamp();
 
 struct FloorLight {

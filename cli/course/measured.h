@@ -48,7 +48,7 @@ public:
     // Shifted numbers of a sample, if the kernel passes them to traced_number().
     std::vector<double> numbers(SceneFile scene, std::uint32_t sample);
 
-    // For one sample of the library's, at the same relative square error.
+    // Samples per library sample, at the same relative square error.
     Measured samples_needed(const std::string &name, SceneFile scene);
 
     // The sequential test of `pt compare`.

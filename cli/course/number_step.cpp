@@ -32,7 +32,7 @@ double modulo_1(double number) {
 int base_of(double first, double second, double third) {
     const double step = std::min(modulo_1(second - first), modulo_1(third - second));
     const double base = std::round(1.0 / step);
-    return step > 0.0 && std::abs(1.0 / step - base) < 0.01 ? static_cast<int>(base) : 0;
+    return step >= unit_roundoff && std::abs(1.0 / step - base) < 0.01 ? static_cast<int>(base) : 0;
 }
 
 template <typename Element, typename Alike>

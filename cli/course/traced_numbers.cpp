@@ -13,12 +13,18 @@ namespace cli {
 
 namespace fs = std::filesystem;
 
-TracedFolder::TracedFolder(const std::string &shader_dir) {
+TracedFolder::TracedFolder() {
     std::error_code error;
     const fs::path parent = fs::temp_directory_path(error);
     for (int attempt = 0; path_.empty() && !error; ++attempt)
         if (const fs::path path = parent / temporary_name(attempt); fs::create_directory(path, error))
             path_ = path.string();
+    refuse_if(path_.empty(), "the kernels need a temporary folder: " + error.message(), ExitCode::file);
+}
+
+// After the first constructor, failures run the destructor.
+TracedFolder::TracedFolder(const std::string &shader_dir) : TracedFolder() {
+    std::error_code error;
     const fs::path folder = path_;
     for (fs::directory_iterator file(shader_dir, error), end; !error && file != end; file.increment(error))
         if (file->is_regular_file())

@@ -7,7 +7,7 @@
 
 namespace cli {
 
-// A temporary copy of kernels, which trace the first pixel.
+// A temporary copy of kernels that traces pixel 0.
 class TracedFolder {
 public:
     explicit TracedFolder(const std::string &shader_dir);
@@ -18,6 +18,8 @@ public:
     const std::string &path() const { return path_; }
 
 private:
+    TracedFolder();
+
     std::string path_;
 };
 

@@ -47,7 +47,7 @@ struct CourseVerdict {
 // Returns the largest deviation from the pattern in units of the measurements' bounds.
 double misfit(std::span<const Measured> measured, const Pattern &pattern);
 
-// `patterns` must include a right one. Mistakes that predict its values, as far as measured, do not fit.
+// `patterns` must include a right one. Mistakes with the right values so far do not fit.
 CourseVerdict judge(std::vector<Measured> measured, std::span<const Pattern> patterns);
 
 } // namespace cli

@@ -20,7 +20,7 @@ SceneFile read_scene_file(const std::string &path, std::vector<SceneOverride> ov
 
 void load_columns(SceneFile &scene);
 
-// If no sphere is hidden.
+// Counts hidden spheres, too.
 bool gets_tree(const SceneFile &scene);
 
 pt_display_info display_of(const std::vector<SceneOverride> &overrides);

@@ -87,8 +87,9 @@ pt_accumulate_info validated_accumulate(const pt_accumulate_info *info, bool may
     subject.require(accumulate.reserved2 == 0, "reserved2", accumulate.reserved2, "must be 0");
     subject.require((accumulate.tile_samples == nullptr) == (accumulate.tile_count == 0), "tile_count",
                     accumulate.tile_count, "must be 0 if and only if tile_samples is NULL");
-    subject.require(!accumulate.tile_samples || !has_target, "stopping.target_error", accumulate.stopping.target_error,
-                    "must be 0 with tile_samples");
+    Subject(violations, "stopping")
+        .require(!accumulate.tile_samples || !has_target, "target_error", accumulate.stopping.target_error,
+                 "must be 0 with tile_samples");
     for (std::uint32_t tile = 0; accumulate.tile_samples && tile < accumulate.tile_count; ++tile)
         if (accumulate.tile_samples[tile] > accumulate.sample_count) {
             subject.refuse("tile_samples", std::to_string(accumulate.tile_samples[tile]),

@@ -50,8 +50,8 @@ bool has_known_side(const CurvedPlane &plane) {
     return static_cast<float>(plane.offset) != 0.0F;
 }
 
-// Whether lamps outside the tree light an open scene's middle over twice as much as skies. Most noise is then that of
-// shadows, which branches share.
+// Whether lamps outside the tree light an open scene's middle over twice as much as skies. Most noise then comes
+// from shadows, which branches share.
 bool lamps_outshine_skies(const KernelSurfaces &surfaces, const std::vector<Material> &materials,
                           const SphereTree *tree, const Camera &camera) {
     const std::span<const SeenSphere> spheres = surfaces.spheres;

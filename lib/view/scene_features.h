@@ -35,8 +35,8 @@ Features features_of(const SeenScene &distinct, const KernelSurfaces &surfaces, 
 
 bool samples_lamps(const Features &features);
 
-// Branches share a path's camera ray and first vertex, because most noise comes from later vertices. Where less does,
-// the number of branches is smaller. It is 1 if a sample takes nearly 65535 loop trips, a driver's limit.
+// Branches share a path's camera ray and first vertex, because most noise comes from later vertices. Otherwise fewer
+// branches suffice. There is 1 if a sample takes nearly 65535 loop trips, a driver's limit.
 std::uint32_t branch_count(const Features &features);
 
 PointLayout point_layout(const Features &features);

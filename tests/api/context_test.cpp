@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <thread>
 #include <utility>
+#include <vector>
 
 namespace api {
 
@@ -244,6 +245,12 @@ TEST_F(ApiTest, ATimeLimitKeepsCompleteSamplesAndAtLeastOne) {
     info.stopping.time_limit = -1.0;
     expect_failure(pt_accumulate(context(), &info), PT_ERROR_INVALID_ARGUMENT,
                    "stopping.time_limit = -1: must be finite and >= 0");
+    const std::vector<uint32_t> of_tiles(3, 1);
+    info.stopping.time_limit = 0.0;
+    info.tile_samples = of_tiles.data();
+    info.tile_count = static_cast<uint32_t>(of_tiles.size());
+    expect_failure(pt_accumulate(context(), &info), PT_ERROR_INVALID_ARGUMENT,
+                   "stopping.target_error = 1e+09: must be 0 with tile_samples");
 }
 
 TEST_F(ApiTest, ProgressThatThrowsIsAnErrorThatKeepsTheFilmWhole) {

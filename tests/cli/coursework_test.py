@@ -138,6 +138,20 @@ class Coursework(CommandLineTest):
         self.assertRegex(lines[0], "^wrong: the start. ")
         self.expect(2, "course", error="DIR or --check is required")
 
+    def test_kernels_are_traced_in_a_temporary_folder(self):
+        for difference in DIFFERENCES[:4]:
+            self.apply(difference)
+        before = self.files()
+        check = ("course", "--check", "4", "--shader-dir", "kernels")
+        self.expect(6, *check, TMPDIR="/dev/null", error="temporary folder")
+        self.assertEqual(self.files(), before)
+        os.rename(self.path("kernels/trace.glsl"), self.path("kernels/own.glsl"))
+        for name in [name for name in os.listdir(self.path("kernels")) if os.path.isfile(self.path(f"kernels/{name}"))]:
+            self.write(f"kernels/{name}", self.read(f"kernels/{name}").replace('"trace.glsl"', '"own.glsl"'))
+        os.mkdir(self.path("temporary"))
+        self.expect(6, *check, TMPDIR=self.path("temporary"))
+        self.assertEqual(os.listdir(self.path("temporary")), [])
+
     def test_grade_gives_points_for_right_steps(self):
         self.apply("1-emission")
         done = subprocess.run([PT, "course", "--grade", self.path("kernels")], capture_output=True, text=True, check=True)
