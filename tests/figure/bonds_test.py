@@ -292,8 +292,7 @@ class Looks(unittest.TestCase):
         share = image._shares.shapes[8:24, 8:24]
         self.assertAlmostEqual(share.mean(), 0.75, delta=5 * np.sqrt(0.25 * 0.75 / (400 * 256)))
         self.assertLess(share.var(), 0.1 * 0.25 * 0.75 / 400)
-        self.assertEqual([rays_per_side(*each) for each in ((1, 1), (128, 640 * 480), (1e5, 9), (1e5, 3840 * 2160))],
-                         [4, 12, 32, 22])
+        self.assertEqual([rays_per_side(*each) for each in ((1, 1), (128, 640 * 480), (1e5, 9), (1e5, 3840 * 2160))], [4, 12, 32, 22])
 
     def test_what_is_refused(self):
         for words, options in (

@@ -54,8 +54,7 @@ class Fit(unittest.TestCase):
         cell = Cell(np.array([-3.0, 0, 0]), np.array([[6.0, 0, 0], [2, 5, 0], [0, 1, 4]]), np.ones(3, bool))
         drawn, layout = layout_of(Particles(np.zeros((1, 3)), cell=cell), radius=0.1, box="lines")
         corners = np.array([cell.origin + np.array(k) @ cell.vectors for k in np.ndindex(2, 2, 2)])
-        self.assertAlmostEqual(max(float(rim.max()) for rim in rims(layout.camera, aspect_of(layout), corners, 0.0)),
-                               1 - 2 * MARGIN)
+        self.assertAlmostEqual(max(float(rim.max()) for rim in rims(layout.camera, aspect_of(layout), corners, 0.0)), 1 - 2 * MARGIN)
         np.testing.assert_array_equal(np.sort(drawn.balls.points, axis=0), np.sort(corners, axis=0))
 
     def test_lamps_hold_everything_and_are_out_of_the_picture(self):
@@ -166,8 +165,7 @@ class Series(unittest.TestCase):
             self.assertAlmostEqual(abs(axis @ staged[0].layout.stage.lamps[0].center - axis @ np.array(
                 staged[7].layout.stage.lamps[0].center)), 0.0)
             self.assertGreater(axis @ up_vector(up), 0)
-            distances = [np.linalg.norm(np.subtract(each.layout.camera.position, each.layout.stage.lamps[0].center))
-                         for each in staged]
+            distances = [np.linalg.norm(np.subtract(each.layout.camera.position, each.layout.stage.lamps[0].center)) for each in staged]
             np.testing.assert_allclose(distances, distances[0])
 
 

@@ -44,8 +44,7 @@ def first_hits(origins, ways, capsules=((), (), 0.0)):
         side = to_ball(start, way / scale[..., None], radius) / scale
         along = (origins - begin) @ axis + np.where(np.isfinite(side), side, 0) * (ways @ axis)
         side[(along < 0) | (along > np.linalg.norm(end - begin))] = np.inf
-        distances[..., k] = np.minimum(side, np.minimum(to_ball(origins - begin, ways, radius),
-                                                        to_ball(origins - end, ways, radius)))
+        distances[..., k] = np.minimum(side, np.minimum(to_ball(origins - begin, ways, radius), to_ball(origins - end, ways, radius)))
     return np.where(np.isfinite(distances.min(axis=-1)), distances.argmin(axis=-1), -1)
 
 

@@ -46,6 +46,7 @@ class Kinds(unittest.TestCase):
             notes = []
             options = styled(particles, Options(), notes)
             self.assertEqual((kind_of(particles, Options()), options.style), (expected, expected))
+            self.assertEqual((options.depth_cue, options.colormap), (0.0, "coolwarm" if expected == "galaxy" else None))
             self.assertEqual([note[:len(expected) + 10] for note in notes],
                              [f"style is {expected}:"] if expected != "particles" else [])
 

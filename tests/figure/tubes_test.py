@@ -80,9 +80,11 @@ class Models(unittest.TestCase):
 
     def test_alpha_carbons_alone_have_a_tube_by_default(self):
         particles = particles_of(chain(np.vstack([HELIX, HELIX + (0, 0, 18)])))
-        self.assertEqual(styled(particles, Options(), []).model, "tube")
         drawn = prepare(particles, styled(particles, Options(), []))
         self.assertEqual((len(drawn.rods), drawn.notes), (1, []))
+        particles.columns["resid"] = np.arange(24)
+        options = styled(particles, Options(), [])
+        self.assertEqual((options.model, options.style, options.color), ("tube", "matte", "resid"))
 
     def test_the_solvent_accessible_surface(self):
         radii = radii_of(particles_of(chain(HELIX)), "solvent-accessible", [])

@@ -89,8 +89,7 @@ def _of_pairs(particles: Particles, pairs: Array) -> Bonds:
     bad = ((pairs < 0) | (pairs >= len(particles))).any(axis=1) | (pairs[:, 0] == pairs[:, 1])
     if bad.any():
         row = int(bad.argmax())
-        raise ValueError(f"bonds[{row}] = {pairs[row].tolist()}: must be two different particles, from 0 to "
-                         f"{len(particles) - 1}")
+        raise ValueError(f"bonds[{row}] = {pairs[row].tolist()}: must be two different particles, from 0 to {len(particles) - 1}")
     return _with_images(particles, Bonds(pairs.astype(np.intp)))
 
 

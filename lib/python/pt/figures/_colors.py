@@ -26,7 +26,7 @@ PLAIN: Final = "#96aabe"
 # Okabe and Ito 2008, "Color Universal Design". The first two also differ most in lightness.
 PALETTE: Final = ((0, 114, 178), (230, 159, 0), (0, 158, 115), (213, 94, 0), (86, 180, 233), (204, 121, 167), (240, 228, 66))
 PALE: Final = 0.6  # distance of carbon's shade from white, relative to the column's color
-TINT: Final = 0.6  # fraction of the element's own color, so that N, O and S stay recognizable
+TINT: Final = 0.6  # fraction of the element's own color; N, O and S stay recognizable
 SOFT: Final = 0.75  # like PALE, for elements
 MOST_CATEGORIES: Final = 1000
 SKEW: Final = 4.0  # limit of (full range) / (range from 1% to 99%), which is 3 for exponential values

@@ -24,7 +24,7 @@ from pt.figures._styles import completed, groups_of, has_corners, repeated
 from pt.figures._tubes import trace_of, tubes_of
 
 LEAST_LENGTH: Final = 1e-18
-BESIDE_ARROWS: Final = 0.25  # factor of automatic radii; by taste
+BESIDE_ARROWS: Final = 0.25  # by taste
 
 
 @dataclass(frozen=True)

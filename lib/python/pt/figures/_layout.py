@@ -57,8 +57,7 @@ class View:
             world = np.array([compass.right, compass.front, compass.up])
             points = np.broadcast_to(0.0, len(balls.centers))
             height = relative_height(Extents.of(reach(balls.centers, points, world, SIDES)).size)
-        axes = (principal_axes(balls.centers, compass) if view == "best" else
-                view_axes(toward_camera(view, compass, height), compass))
+        axes = (principal_axes(balls.centers, compass) if view == "best" else view_axes(toward_camera(view, compass, height), compass))
         spin = None
         if turns:
             extents = Extents.of(balls.reach(axes, SIDES))

@@ -100,7 +100,7 @@ def read_shares(context: Context, camera: Camera, settings: RenderSettings, over
 
 
 def _share(hits: Array, per_side: int, sign: int = 1) -> Doubles:
-    """sign = -1: half the difference between the colors of a checkerboard of rays; its square estimates the share's variance."""
+    """sign = -1: half the difference between two interleaved sets of rays, which estimates the error."""
     counts: Any = hits.view(np.int8)
     rows: Any = sum(sign**i * counts[i::per_side] for i in range(per_side))
     rows = rows.astype(np.int16)

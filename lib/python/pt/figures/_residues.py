@@ -65,8 +65,7 @@ def is_free_ion(residue: str) -> bool:
 
 
 def is_polymer(residue: str) -> bool:
-    return residue in AMINO_ACIDS or residue in NUCLEOTIDES or (
-        len(residue) == 4 and residue[0] in "NC" and residue[1:] in AMINO_ACIDS)
+    return residue in AMINO_ACIDS or residue in NUCLEOTIDES or (len(residue) == 4 and residue[0] in "NC" and residue[1:] in AMINO_ACIDS)
 
 
 def autodock_element(kind: str) -> int:

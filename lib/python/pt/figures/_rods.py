@@ -15,8 +15,8 @@ from pt.figures._radii import typical_radius
 from pt.figures._select import column
 
 LONGEST: Final = 4.0  # length of the longest arrow, in typical radii; by taste, like the next five values
-WIDTH: Final = 0.03  # largest radius of a shaft, relative to the longest arrow
-HEAD: Final = 0.28  # largest length, relative to the longest arrow
+WIDTH: Final = 0.03  # largest radius of a shaft, relative to the longest arrow, like HEAD
+HEAD: Final = 0.28  # largest length
 MOST_HEAD: Final = 0.4  # relative to the arrow
 SLOPE: Final = 0.35  # radius of the head's base, relative to its length
 SHAFT: Final = 0.4  # relative to the head's base

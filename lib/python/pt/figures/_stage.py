@@ -46,8 +46,7 @@ def make_stage(style: str, axes: Doubles, distance: float, center: Doubles, radi
     if occlusion:
         return Stage((surround,), floor, material)
     level = math.cos(KEY_ELEVATION)
-    direction = (level * math.sin(KEY_AZIMUTH) * axes[0] - level * math.cos(KEY_AZIMUTH) * axes[2] +
-                 math.sin(KEY_ELEVATION) * axes[1])
+    direction = (level * math.sin(KEY_AZIMUTH) * axes[0] - level * math.cos(KEY_AZIMUTH) * axes[2] + math.sin(KEY_ELEVATION) * axes[1])
     # A white surface that faces a lamp of radiance L and half angle a has the radiance L sin^2(a) (Lambert).
     sine = math.sin(KEY_HALF_ANGLE)
     key = Sphere(center + far * direction, far * sine, Material(emission=KEY_BRIGHTNESS / (sine * sine)))

@@ -27,15 +27,15 @@ VALUES: Final[dict[str, dict[str, Any]]] = {
     "molecule": {"bonds": "auto"},
     "protein": {"radius": "van-der-waals", "color": "chain+element", "where": ("not water",), "box": "none"},
     "crystal": {"bonds": "auto", "wall_bonds": "none", "box": "lines"},
-    "point-cloud": {"box": "none", "depth_cue": 0.4},
-    "galaxy": {"background": "#04060c", "box": "none"},
+    "point-cloud": {"box": "none"},
+    "galaxy": {"background": "#04060c", "box": "none", "colormap": "coolwarm"},
     "soft": {"outlines": True},
     "illustrative": {"outlines": True, "box": "none"},
     "cover": {"floor": True},
 }
 LOOKS: Final = ("soft", "illustrative", "cover")
 WORDS: Final = {"molecule": "balls and sticks", "protein": "chains by color, no water, no cell", "crystal": "bonds, cell and all corner atoms",
-                "point-cloud": "soft light, far points paler", "galaxy": "a dark background"}
+                "point-cloud": "soft light", "galaxy": "a dark background"}
 
 
 def styled(particles: Particles, options: Options, notes: list[str]) -> Options:
@@ -51,6 +51,10 @@ def styled(particles: Particles, options: Options, notes: list[str]) -> Options:
         values = {name: value for name, value in values.items() if name not in ("bonds", "radius")}
     if kind == "protein" and trace_of(particles)[polymers_of(particles)].all():
         values["model"] = "tube"
+    if kind == "protein" and "tube" in (options.model, values.get("model")):
+        style = "matte" if style == kind else style
+        if "resid" in particles.columns and len(set(particles.columns.get("chain", ()))) == 1:
+            values["color"] = "resid"
     if options.drawn_model != "space-filling":
         values.pop("radius", None)
     if "chain" not in particles.columns or "resname" not in particles.columns:

@@ -87,8 +87,7 @@ def binary_columns(lines: Lines, kinds: Mapping[str, str], count: int, _: list[s
         return {}
     found = lines.mapped(kind, count)
     if len(found) < count:
-        raise lines.refuse(f"the file ends after {len(found):,} of {count:,} records of {kind.itemsize} bytes: it was cut "
-                           "short")
+        raise lines.refuse(f"the file ends after {len(found):,} of {count:,} records of {kind.itemsize} bytes: it was cut short")
     return {name: found[name] for name in kinds}
 
 

@@ -201,8 +201,7 @@ def _bonds(structure: Any, columns: dict[str, Array], notes: list[str]) -> Bonds
 def _connections(structure: Any, columns: dict[str, Array]) -> Iterator[tuple[int, int]]:
     """Reads bonds within the asymmetric unit, except hydrogen bonds, from struct_conn, or from LINK and SSBOND."""
     gemmi = module("gemmi", structure.name)
-    wanted = [each for each in structure.connections
-              if each.type != gemmi.ConnectionType.Hydrog and each.asu != gemmi.Asu.Different]
+    wanted = [each for each in structure.connections if each.type != gemmi.ConnectionType.Hydrog and each.asu != gemmi.Asu.Different]
     if not wanted:
         return
     keys = zip(*(columns[key].tolist() for key in ("chain", "resid", "icode", "name", "altloc")))
