@@ -11,6 +11,7 @@ import aiohttp
 import numpy as np
 import pt
 from pictures import CAMERA, SCENE, SCENE_FILE, settings
+from pt.figures._options import Options
 from pt.view import View, _server
 from pt.view._frame import faults_of
 from view_page import Page, text_of
@@ -200,6 +201,16 @@ class Views(unittest.TestCase):
             page.send({"display": {"exposure": "auto", "tonemap": "none", "gamma": None}})
             page.frame(lambda state: state["stops"] != -1.5)
             np.testing.assert_array_equal(page.pixels, automatic)
+
+    def test_particles_are_a_figure(self):
+        path = self.folder / "points.csv"
+        path.write_text("x,y,z\n0,0,0\n1,0,0\n0,1,1\n")
+        options = {"size": (24, 16), "radius": 0.3, "seed": 5, "exposure": -1.5}
+        figure = pt.figure(path, samples=16, **options)
+        with closing(View(path, samples=16, options=Options(**options))) as view, Page(view) as page:
+            state = page.frame(lambda state: state["samples"] == 16)
+            np.testing.assert_array_equal(page.radiance(), figure.radiance)
+            self.assertEqual((state["stops"], state["name"]), (-1.5, "points.csv"))
 
     def test_what_the_page_changes(self):
         with Page(self.view) as page:
