@@ -57,7 +57,7 @@ def name_of(member: Any) -> str:
 
 LAYERS: Final = {name_of(each).replace("-", " "): each for each in Quantity
                  if each not in (Quantity.OBJECT, Quantity.COVERAGE)}
-OF_SAMPLES: Final = 3  # number of layers of samples; later layers show first hits of camera rays
+OF_SAMPLES: Final = 3  # the first layers are of samples, the others of first hits
 CHOICES: Final = {"layer": list(LAYERS), "curve": [name_of(each) for each in Curve],
                   **{name: [name_of(each) for each in kinds] for name, kinds in METHODS.items()}}
 

@@ -18,7 +18,7 @@ SIGNALS: Final[dict[str, Any]] = {"exposure": 0.0, "gamma": 1.0}  # numbers in [
 class Look:
     """A page's display. Only the radiance uses `display`; the colors of other layers are fixed.
 
-    `stops` is the current exposure, which is not recomputed while the camera moves.
+    `stops` is the exposure, which stays while the camera moves.
     """
 
     def __init__(self, display: Display, stops: float = 0.0) -> None:

@@ -25,8 +25,6 @@ from pt.view._code import STRING_OR_COMMENT
 
 @dataclass
 class Shown:
-    """`files` have been read."""
-
     scene: Scene
     camera: Camera
     settings: RenderSettings
