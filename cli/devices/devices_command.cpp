@@ -96,9 +96,10 @@ void add_devices_command(CLI::App &program, Run &chosen) {
     const auto [command, options] =
         add_command(program, chosen, "devices", "List the Vulkan devices", "", &run_devices);
     command.add_flag("--json", options.as_json, "Print JSON");
-    add_text(command, "--vector-width", options.kernels, "SCENE|list|tree",
-             "Print the environment variables for llvmpipe's best vector width, which is measured the first time, for "
-             "a scene's kernel, or kernels without or with a tree");
+    add_text(
+        command, "--vector-width", options.kernels, "SCENE|list|tree",
+        "Print the environment variables for llvmpipe's best vector width, for a scene's kernel, or kernels without "
+        "or with a tree. The width is measured the first time");
     add_device(command, options.device);
 }
 
