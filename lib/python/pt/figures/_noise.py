@@ -18,17 +18,17 @@ from pt._scene import Scene
 from pt.figures._compose import around
 
 MOST_NOISE: Final = 1.5  # steps of 1/255; by taste
-FIRST_SAMPLES: Final = 16  # fewest samples with a stated error
+FIRST_SAMPLES: Final = 16  # for a stated error
 MOST_SAMPLES: Final = 128  # of a pixel; fine textures hide the remaining noise
 MOST_COVERAGE: Final = 0.25  # of the square noise
 WORST: Final = 1.5  # largest noise of a neighbourhood, relative to MOST_NOISE; by taste
 FLOOR: Final = 1.0  # like WORST, for a floor before its shadows are smoothed
 SHARE: Final = 1.15  # the second round's aim, relative to the allowed square error
-LEAST_GROWTH: Final = 1.02  # smaller rounds cost more time than samples
+LEAST_GROWTH: Final = 1.02  # smaller rounds cost time
 MOST_STEP: Final = 4.0  # most samples after a round, relative to those before
 SEQUENCES: Final = 1.0 / math.sqrt(7.0)  # the error of quasi-random points may be this fraction of the stated one
 
-Show = Callable[[Array, Array, float], Array]  # 16 bits of light; takes the exposure's image and a multiple of the coverage's error
+Show = Callable[[Array, Array, float], Array]  # 16 bits of light; arguments: the exposure's image, a multiple of the coverage's error
 
 
 @dataclass(frozen=True)
