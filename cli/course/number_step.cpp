@@ -95,7 +95,7 @@ std::vector<Measured> measure_dimensions(CourseKernels &kernels) {
 
 std::vector<Pattern> number_patterns() {
     const Range some{1.0, infinity};
-    const Range below_1{0.0, 1.0 - unit_roundoff};
+    const Range below_1{0.01, 1.0 - unit_roundoff};
     const auto variances = [](const char *name, const char *hint, Range random, Range shifted,
                               Range unshifted = any_value, Range other = any_value) {
         return Pattern{name, hint,
@@ -130,6 +130,8 @@ std::vector<Pattern> number_patterns() {
                        {exactly(0.0), some, any_value, any_value}),
             dimensions("one shift for all dimensions", "The shift's random number depends on pixel and dimension.",
                        {exactly(0.0), exactly(0.0), some, any_value}),
+            dimensions("numbers are not traced", "next_number() must pass its numbers through traced_number().",
+                       {exactly(0.0), exactly(0.0), exactly(0.0), exactly(0.0)}),
             dimensions("no modulo 1", "The sum of number and shift must return to [0, 1): take fract().",
                        {exactly(0.0), exactly(0.0), any_value, {1.0 - 1e-6, infinity}})};
 }

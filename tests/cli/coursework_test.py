@@ -37,6 +37,7 @@ MISTAKES = (
     ("4-numbers", "unit_number(of_pixel)", "unit_number(hash(pixel_index))", "one shift for all dimensions"),
     ("4-numbers", "fract(radical_inverse(PRIMES[dimension - 1u], sample_index) + shift)",
      "radical_inverse(PRIMES[dimension - 1u], sample_index) + shift", "no modulo 1"),
+    ("4-numbers", "return traced_number(fract(", "return (fract(", "numbers are not traced"),
     ("4-numbers", "SAMPLER == SAMPLER_HALTON ? 0.0", "SAMPLER != SAMPLER_HALTON_CP ? 0.0", "the default sampler has no shift"),
     ("4-numbers", "if (SAMPLER == SAMPLER_RANDOM || dim", "if (dim", "the sampler random is not random"),
     ("4-numbers", "if (SAMPLER == SAMPLER_RANDOM || dim", "if (true || dim", "numbers are still random"),
