@@ -159,10 +159,6 @@ Channels lamp_solid_angles() {
     return angles;
 }
 
-double red_lamp_cosine() {
-    return std::cos(floor_lamps()[0].half_angle);
-}
-
 Channels right_lamplight() {
     Channels light{};
     for (const FloorLamp &lamp : floor_lamps())

@@ -39,8 +39,6 @@ glm::dvec3 turned_back(const glm::dvec3 &ray, const glm::dvec3 &normal);
 glm::dvec3 along_normal(const glm::dvec3 &ray, const glm::dvec3 &normal);
 
 inline constexpr double lamp_count = 5.0;
-double red_lamp_cosine(); // of half its cone's angle
-
 Channels lamp_solid_angles();
 
 // Exact values by form factors of spheres above a plane (Snyder 1996).

@@ -31,14 +31,10 @@ std::vector<Measured> means(const Picture &picture, const std::string &what) {
     return {picture.mean(what + ", red", 0), picture.mean(what + ", green", 1), picture.mean(what + ", blue", 2)};
 }
 
-Picture floor_picture(const CourseKernels &kernels, std::uint32_t estimator) {
-    SceneFile scene = lamps_above_a_floor(64, floor_samples);
-    scene.render.estimator = estimator;
-    return kernels.edited(scene);
-}
-
 std::vector<Measured> floor_means(const CourseKernels &kernels, std::uint32_t estimator) {
-    return means(floor_picture(kernels, estimator), "floor under five lamps");
+    SceneFile scene = lamps_above_a_floor(64, 64);
+    scene.render.estimator = estimator;
+    return means(kernels.edited(scene), "floor under five lamps");
 }
 
 Measured ball_mean(const CourseKernels &kernels, std::uint32_t estimator) {

@@ -17,9 +17,6 @@ Weight scaled_cosine(double scale);
 
 std::vector<Measured> means(const Picture &picture, const std::string &what);
 
-inline constexpr std::uint32_t floor_samples = 64;
-
-Picture floor_picture(const CourseKernels &kernels, std::uint32_t estimator);
 std::vector<Measured> floor_means(const CourseKernels &kernels, std::uint32_t estimator);
 Measured ball_mean(const CourseKernels &kernels, std::uint32_t estimator);
 

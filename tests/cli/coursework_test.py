@@ -53,9 +53,9 @@ MISTAKES = (
     ("6b-lamps", "length == 1u || hit.surface >= LAMP_COUNT", "length == 1u", "emission dropped that no cone samples"),
     ("6b-lamps", "if (!ASKS_LAMPS || length == 1u || hit.surface >= LAMP_COUNT)\n", "", "emission counted twice"),
     ("6b-lamps", "surface == lamp)", "surface < 99u)", "no shadows"),
-    ("6b-lamps", "const bool ASKS_LAMPS = ", "const bool ASKS_LAMPS = false && ", "lamps are hit by chance"),
+    ("6b-lamps", "const bool ASKS_LAMPS = ", "const bool ASKS_LAMPS = false && ", "too many samples"),
     ("6b-lamps", ASKING, ASKING.replace("for (uint lamp = 0u; lamp < LAMP_COUNT", """uint chosen = min(uint(next_number() * LAMP_COUNT), LAMP_COUNT - 1u);
-    for (uint lamp = chosen; lamp == chosen""").replace("light +=", "light += float(LAMP_COUNT) *"), "lamps chosen alike"),
+    for (uint lamp = chosen; lamp == chosen""").replace("light +=", "light += float(LAMP_COUNT) *"), "too many samples"),
     ("7-motion", "time = next_number();", "time = 0.5;", "one time for all samples"),
     ("7-motion", LAMP_RAY, LAMP_RAY.replace("if (", "float kept = time;\n time = 0.0;\n bool meets = ").replace(" == lamp)", """ == lamp;
         time = kept;
