@@ -15,7 +15,7 @@ from pt.figures._figure import Staged
 from pt.figures._options import STYLES, Options
 from pt.figures._overlay import Shares
 from pt.figures._particles import Particles
-from pt.figures._series import turntable
+from pt.figures._series import frames, turntable
 from pt.figures._styles import completed, kind_of, styled
 
 WATER = np.array([[0.0, 0, 0], [0.76, 0.59, 0], [-0.76, 0.59, 0]])
@@ -74,8 +74,10 @@ class Crystals(unittest.TestCase):
         np.testing.assert_allclose(sorted(full.positions.tolist()), sorted(places.tolist()), atol=1e-9)
         self.assertEqual(np.bincount(full.elements)[[11, 17]].tolist(), [14, 13])
         for style in ("auto", "cover"):
-            drawn = prepare(salt(), styled(salt(), Options(style=style), []))
-            self.assertEqual((len(drawn.centers), len(drawn.rods[0].atoms)), (27, 108))
+            options = Options(style=style, size=(40, 30))
+            for drawn in (prepare(salt(), styled(salt(), options, [])), *(each.drawn for each in frames(lambda: iter([salt()] * 2), options))):
+                self.assertEqual((len(drawn.centers), len(drawn.rods[0].atoms)), (27, 108))
+        self.assertEqual(len(prepare(salt(), styled(salt(), Options(style="cover", radius=1.0), [])).centers), 8)
         away = Particles(SALT + 0.7, elements=np.full(8, 6, np.uint8), cell=Cell.of((5.64, 5.64, 5.64)))
         self.assertIs(completed(away, Options()), away)
         self.assertEqual(len(prepare(salt(), Options(style="crystal", color=np.arange(8.0), radius=1.0)).centers), 8)

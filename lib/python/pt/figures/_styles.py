@@ -88,7 +88,8 @@ def kind_of(particles: Particles, options: Options) -> str:
 
 
 def has_corners(particles: Particles, options: Options) -> bool:
-    return options.style == "crystal" or options.style in LOOKS and kind_of(particles, options) == "crystal"
+    is_look = options.style in LOOKS and options.bonds is not None  # frames and panels settle radii
+    return options.style == "crystal" or is_look and kind_of(particles, replace(options, radius=None)) == "crystal"
 
 
 def completed(particles: Particles, options: Options) -> Particles:
