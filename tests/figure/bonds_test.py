@@ -268,6 +268,11 @@ class Looks(unittest.TestCase):
         np.testing.assert_allclose(lengths[1], (0.6 * long, long))
         np.testing.assert_allclose(lengths[2], 2 * lengths[1])
         self.assertEqual(len(lengths[0]), 0)
+        widths = [each.drawn.rods[0].radius.reshape(21, -1)[0] for each in staged[1:]]
+        self.assertEqual(widths[0].max(), widths[1].max())
+        bonded = Particles(particles.positions / 10, particles.columns, elements=np.uint8([6, 1, 1]))
+        drawn = prepare(bonded, Options(vectors="v", bonds=2.0))
+        self.assertGreater(drawn.radii.min(), drawn.settled["bond_radius"])
 
     def test_opacity(self):
         """Each of two balls, and each half of their bond, transmits 1 - opacity. The tolerance is four standard errors

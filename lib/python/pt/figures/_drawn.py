@@ -91,7 +91,7 @@ def prepare(particles: Particles, options: Options, scale: float | None = None) 
     if corners:
         particles = completed(particles, options)
     radii = radii_of(particles, options.radius, notes)
-    if options.vectors is not None and options.radius is None and particles.radii is None:
+    if options.vectors is not None and options.radius is None and options.bond_rule is None and particles.radii is None:
         radii = radii * radii.dtype.type(BESIDE_ARROWS)
     colors, legend = colors_of(particles, options, notes)
     opacities = opacities_of(particles, options.opacity)

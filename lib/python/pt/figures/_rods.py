@@ -15,7 +15,7 @@ from pt.figures._radii import typical_radius
 from pt.figures._select import column
 
 LONGEST: Final = 4.0  # length of the longest arrow, in typical radii; by taste, like the next five values
-WIDTH: Final = 0.03  # largest radius of a shaft, relative to the longest arrow, like HEAD
+WIDTH: Final = 0.03  # largest radius of a shaft, relative to LONGEST, like HEAD
 HEAD: Final = 0.28  # largest length
 MOST_HEAD: Final = 0.4  # relative to the arrow
 SLOPE: Final = 0.35  # radius of the head's base, relative to its length
@@ -65,20 +65,20 @@ def vectors_of(particles: Particles, given: Vectors, scale: float | None) -> tup
     check_finite("vectors", vectors)
     vectors = vectors.astype(np.float64)
     lengths = np.linalg.norm(vectors, axis=1)
-    longest = float(lengths.max())
+    longest, usual = float(lengths.max()), LONGEST * typical_radius(particles.positions)
     if scale is None:
-        scale = LONGEST * typical_radius(particles.positions) / longest if longest > 0.0 else 0.0
+        scale = usual / longest if longest > 0.0 else 0.0
     atoms = np.flatnonzero(lengths)
-    return _arrows(atoms, vectors[atoms] * scale, longest * scale), scale
+    return _arrows(atoms, vectors[atoms] * scale, usual), scale
 
 
-def _arrows(atoms: Array, ways: Doubles, longest: float) -> Rods:
+def _arrows(atoms: Array, ways: Doubles, usual: float) -> Rods:
     """Heads are cones of ever thinner capsules."""
     lengths = np.linalg.norm(ways, axis=1)
-    heads = np.minimum(HEAD * longest, MOST_HEAD * lengths)
+    heads = np.minimum(HEAD * usual, MOST_HEAD * lengths)
     left = np.arange(PIECES, -1.0, -1.0)[:, None] / PIECES
     places = np.concatenate([np.zeros((1, len(ways))), 1.0 - left * heads / lengths])
-    radii = np.concatenate([np.minimum(WIDTH * longest, SHAFT * SLOPE * heads)[None], SLOPE * heads * (left[:-1] - 0.5 / PIECES)])
+    radii = np.concatenate([np.minimum(WIDTH * usual, SHAFT * SLOPE * heads)[None], SLOPE * heads * (left[:-1] - 0.5 / PIECES)])
     starts, steps = (each[:, :, None] * ways for each in (places[:-1], np.diff(places, axis=0)))
     rows = np.tile(atoms, PIECES + 1)
     return Rods(rows, rows, steps.reshape(-1, 3), radii.reshape(-1), starts.reshape(-1, 3))

@@ -118,7 +118,7 @@ def _rule(particles: Particles, drawn: Drawn, options: Options) -> Radius:
     factor = covalent_factor(particles)
     if factor is None:
         return float(drawn.radii[0]) / drawn.scale
-    share = 1.0 if options.vectors is None else BESIDE_ARROWS
+    share = BESIDE_ARROWS if options.vectors is not None and options.bond_rule is None else 1.0
     return f"{(BALL_SHARE if options.drawn_model in ('ball-and-stick', 'tube') else 1.0) * share * factor!r}*covalent"
 
 
