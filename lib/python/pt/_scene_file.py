@@ -138,8 +138,8 @@ def scene_schema() -> dict[str, Any]:
 
 class _Handle:
     def __init__(self, path: Path, text: str | None, overrides: list[Override], frame: int | None) -> None:
-        self._library = scene_library()
         self._pointer = c_void_p()
+        self._library = scene_library()
         data = None if text is None else text.encode()
         listed = (structs.pt_scene_override * len(overrides))(
             *(structs.pt_scene_override(c_string(each.setting), c_string(each.name)) for each in overrides))
