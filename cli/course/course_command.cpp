@@ -32,7 +32,7 @@ std::string range_text(const Range &range) {
     return std::isinf(range.least) ? "any" : formatted("%.3g to %.3g", range.least, range.most);
 }
 
-std::string verdict_text(const CourseVerdict &verdict) {
+std::string judgement(const CourseVerdict &verdict) {
     if (verdict.is_right())
         return "right";
     if (!verdict.other_light.empty())
@@ -40,6 +40,13 @@ std::string verdict_text(const CourseVerdict &verdict) {
     if (!verdict.fitting)
         return "wrong: no usual mistake fits";
     return "wrong: " + verdict.fitting->name + ". " + verdict.fitting->hint;
+}
+
+std::string verdict_text(const CourseVerdict &verdict) {
+    const std::string text = judgement(verdict);
+    return verdict.rejected > 0.0
+               ? text + formatted(" (%.0f samples were NaN, infinite, negative or too bright)", verdict.rejected)
+               : text;
 }
 
 std::string report(const CourseStep &step, const CourseVerdict &verdict) {

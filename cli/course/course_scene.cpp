@@ -177,6 +177,16 @@ SceneFile floor_under_the_sky() {
                                numbers(floor_normal), R"(, "offset": 0, "material": "floor"}])"));
 }
 
+SceneFile floor_below_a_lamp() {
+    return parse_scene(R"({"film": {"width": 32, "height": 32}, "render": {"spp": 64, "max_path_length": 2,
+                      "sampler": "random", "estimator": "uniform"},
+        "camera": {"position": [1.6, 1.2, 0], "look_at": [0, 0, 0], "vertical_fov": 0.2},
+        "materials": {"floor": {"diffuse": 1, "emission": [0, 0, 1]}, "lamp": {"emission": [1, 0, 0]}},
+        "spheres": [{"center": [0, 0.8, 0], "radius": 0.5, "material": "lamp"}],
+        "planes": [{"normal": [0, 1, 0], "offset": 0, "material": "floor"}]})",
+                       "");
+}
+
 double ball_cosine() {
     return std::sqrt(1.0 - ball_share);
 }
@@ -222,6 +232,13 @@ SceneFile ball_before_camera_and_lamp() {
                                R"(, "motion": )", numbers({ball_motion, 0.0, 0.0}), R"(, "material": "ball"}],
         "planes": [{"normal": [0, 1, 0], "offset": 0, "material": "floor"},
                    {"normal": [0, -1, 0], "offset": 1000, "material": "sky"}])"));
+}
+
+SceneFile moving_ball_under_the_sky() {
+    return course_floor(32, 16, {0.0, 2.0, 0.0}, R"(
+        "materials": {"ball": {"diffuse": 1}, "sky": {"emission": 1}},
+        "spheres": [{"center": [0, 0, 0], "radius": 1000, "material": "sky"},
+                    {"center": [-0.6, 0, 0], "radius": 1, "motion": [1.2, 0, 0], "material": "ball"}])");
 }
 
 FloorLight light_below_the_ball() {

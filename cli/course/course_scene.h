@@ -49,6 +49,10 @@ Channels right_lamplight();
 SceneFile floor_under_the_sky();
 inline constexpr double floor_glossiness = 8.0;
 
+// A red lamp above a floor that emits blue, 1. The library starts rays of narrower pixels near the floor.
+SceneFile floor_below_a_lamp();
+inline constexpr double near_lamp_square_sine = 0.390625; // of half its cone's angle
+
 // Radiance in selftest's lamp_in_a_ball(). Directions to the lamp have the weight `hit`, others the weight `missed`.
 double light_in_a_ball(double hit, double missed, int vertices = 3);
 double ball_cosine(); // of half the cone's angle
@@ -69,6 +73,9 @@ double disc_cosine();
 
 // A moving blue ball hides a floor from the camera, then a red lamp from the floor. The sky is green.
 SceneFile ball_before_camera_and_lamp();
+
+// It reflects a white sky, and is in the middle of the view at all times.
+SceneFile moving_ball_under_the_sky();
 
 struct FloorLight {
     Channels right;

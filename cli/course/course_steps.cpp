@@ -16,6 +16,23 @@ SceneFile equal_light(const char *name, std::uint32_t length, std::uint32_t esti
     return scene;
 }
 
+CourseVerdict judge_stages(CourseKernels &kernels, const CourseStep &step) {
+    const std::vector<Pattern> patterns = step.patterns();
+    CourseVerdict verdict;
+    for (const auto &measure : step.measure) {
+        std::ranges::move(measure(kernels), std::back_inserter(verdict.measured));
+        verdict = judge(std::move(verdict.measured), patterns);
+        if (verdict.fitting && !verdict.is_right())
+            return verdict;
+    }
+    if (verdict.is_right() && step.same_light) {
+        const LightVerdict light = kernels.compare(step.same_light());
+        if (light.is_different())
+            verdict.other_light = light.comparison.summary;
+    }
+    return verdict;
+}
+
 } // namespace
 
 // The exercise fixes 6 of the points of step 2, 10 of step 3, and all of 6a to 6c. The rest of 100 is divided here.
@@ -52,32 +69,22 @@ const std::vector<CourseStep> &course_steps() {
         {"7",
          "motion",
          6,
-         {measure_motion},
+         {measure_motion, measure_moving_normals},
          motion_patterns,
          [] { return equal_light("coursework-motion.json", 2, PT_ESTIMATOR_LIGHT); }},
     };
     return steps;
 }
 
-CourseVerdict check_quickly(CourseKernels &kernels, const CourseStep &step) {
-    return judge(step.measure.front()(kernels), step.patterns());
+CourseVerdict check_step(CourseKernels &kernels, const CourseStep &step) {
+    const double before = kernels.rejected();
+    CourseVerdict verdict = judge_stages(kernels, step);
+    verdict.rejected = kernels.rejected() - before;
+    return verdict;
 }
 
-CourseVerdict check_step(CourseKernels &kernels, const CourseStep &step) {
-    const std::vector<Pattern> patterns = step.patterns();
-    CourseVerdict verdict;
-    for (const auto &measure : step.measure) {
-        std::ranges::move(measure(kernels), std::back_inserter(verdict.measured));
-        verdict = judge(std::move(verdict.measured), patterns);
-        if (verdict.fitting && !verdict.is_right())
-            return verdict;
-    }
-    if (verdict.is_right() && step.same_light) {
-        const LightVerdict light = kernels.compare(step.same_light());
-        if (light.is_different())
-            verdict.other_light = light.comparison.summary;
-    }
-    return verdict;
+CourseVerdict check_quickly(CourseKernels &kernels, const CourseStep &step) {
+    return judge(step.measure.front()(kernels), step.patterns());
 }
 
 } // namespace cli

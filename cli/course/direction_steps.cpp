@@ -19,7 +19,9 @@ double no_weight_below(double cosine, double weight) {
 std::vector<Measured> measure_directions(CourseKernels &kernels) {
     std::vector<Measured> measured = floor_means(kernels, PT_ESTIMATOR_UNIFORM);
     measured.push_back(kernels.edited(glowing_ball(ball_length)).mean("paths in a glowing ball", 0));
-    measured.push_back(kernels.edited(floor_under_the_sky()).mean("a floor's own light", 2));
+    const Picture floor = kernels.edited(floor_below_a_lamp());
+    measured.push_back(floor.mean("floor below a near lamp, red", 0));
+    measured.push_back(floor.mean("its own light, blue", 2));
     return measured;
 }
 
@@ -33,29 +35,35 @@ std::vector<Pattern> direction_patterns() {
             light += std::pow(albedo, vertex);
         return nearly(light); // grazing directions leave through the wall that they start on
     };
+    const Range own_light{1.0, 1.001}; // rounding lets few grazing rays hit the floor
     std::vector<Pattern> patterns;
     for (const bool has_throughput : {false, true}) {
         const double albedo = has_throughput ? 0.5 : 1.0;
         const Weight weight = has_throughput ? scaled_cosine(2.0) : one;
         const Channels right = has_throughput ? right_lamplight() : shares;
+        const double below = has_throughput ? near_lamp_square_sine : 1.0 - std::sqrt(1.0 - near_lamp_square_sine);
         const Range paths = sum(albedo, ball_length);
-        const auto add = [&](const char *name, const char *hint, const Values &lamps, Range ball, Range own) {
-            patterns.push_back({name, hint, joined(lamps, {ball, own})});
+        const auto add = [&](const char *name, const char *hint, const Values &lamps, Range ball, Range lamp,
+                             Range own) {
+            patterns.push_back({name, hint, joined(lamps, {ball, lamp, own})});
         };
-        add("", "", exact(right), paths, exactly(1.0));
+        add("", "", exact(right), paths, exactly(below), own_light);
         add("abs(z)", "The half above a surface depends on its normal: turn directions with a negative cosine round.",
-            near(lamplight(absolute_z, weight)), any_value, any_value);
+            near(lamplight(absolute_z, weight)), any_value, any_value, any_value);
         add("directions of the whole sphere", "Turn directions below the surface round.",
-            near(lamplight(unturned, weight)), any_value, any_value);
+            near(lamplight(unturned, weight)), any_value, any_value, any_value);
         add("paths one vertex short", "The camera's ray hits vertex 1, so there are MAX_PATH_LENGTH vertices.",
-            exact(right, 0.0), sum(albedo, ball_length - 1), exactly(1.0));
+            exact(right, 0.0), sum(albedo, ball_length - 1), exactly(0.0), own_light);
         add("paths one vertex long", "The camera's ray hits vertex 1, so there are MAX_PATH_LENGTH vertices.",
-            any_values(3), sum(albedo, ball_length + 1), exactly(1.0));
+            any_values(3), sum(albedo, ball_length + 1), any_value, any_value);
+        for (const Range &lamp : {Range{0.0, 0.95 * below}, Range{1.05 * below, infinity}})
+            add("rays start elsewhere", "A reflected ray's origin is the position of the hit.", exact(right), any_value,
+                lamp, own_light);
     }
     patterns.push_back({"no bounces", "Continue the path from each surface.",
-                        joined(exact({0.0, 0.0, 0.0}), {exactly(1.0), exactly(1.0)})});
+                        joined(exact({0.0, 0.0, 0.0}), {exactly(1.0), exactly(0.0), own_light})});
     patterns.push_back({"self-intersection", "Skip intersections nearer than NEAR on the surface that a ray leaves.",
-                        joined(any_values(4), {{1.0001, infinity}})});
+                        joined(any_values(5), {{1.01, infinity}})});
     return patterns;
 }
 

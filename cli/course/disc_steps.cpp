@@ -90,6 +90,12 @@ std::vector<Measured> measure_motion(CourseKernels &kernels) {
     return measured;
 }
 
+std::vector<Measured> measure_moving_normals(CourseKernels &kernels) {
+    SceneFile scene = moving_ball_under_the_sky();
+    scene.render.estimator = PT_ESTIMATOR_LIGHT;
+    return {kernels.edited(scene).mean("moving ball under a sky", 0)};
+}
+
 std::vector<Pattern> motion_patterns() {
     const std::vector<DiscSample> samples = places(1.0, 0.0, false, 16);
     const auto timed = [&](const std::function<double(const DiscSample &)> &time) {
@@ -109,7 +115,7 @@ std::vector<Pattern> motion_patterns() {
     const Range own_times{0.0, 0.7};
     const Range moving{20.0, infinity}; // softness
     const auto disc = [](const char *name, const char *hint, const Values &values, Range deviation = any_value) {
-        return Pattern{name, hint, joined(values, {any_value, any_value, any_value, deviation})};
+        return Pattern{name, hint, joined(values, {any_value, any_value, any_value, deviation, any_value})};
     };
     const auto outside = [&](Range middle, Range spread) {
         return disc("time outside [0, 1)", "The shutter opens at time 0 and closes at 1.",
@@ -117,9 +123,14 @@ std::vector<Pattern> motion_patterns() {
     };
     const auto floor = [&](const char *name, const Values &values) {
         return Pattern{name, "All rays of a path, to lamps too, have the time of its sample.",
-                       joined(right, joined(values, {own_times}))};
+                       joined(right, joined(values, {own_times, any_value}))};
     };
-    return {{"", "", joined(right, joined(near(light.right), {own_times}))},
+    const auto below_sky = [&](const char *name, const char *hint, Range ball) {
+        return Pattern{name, hint, joined(right, joined(near(light.right), {own_times, ball}))};
+    };
+    return {below_sky("", "", nearly(1.0)),
+            below_sky("normals at another time", "A normal points from the ball's center at the sample's time.",
+                      {0.0, 0.99}),
             disc("nothing moves", "Use the spheres' positions at the sample's time.", at(0.0, 0.0)),
             disc("one time for all samples", own_number, at(0.0, 0.5)),
             disc("one time for each pixel", own_number, any_values(5), {1.0, infinity}),

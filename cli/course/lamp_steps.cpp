@@ -20,7 +20,7 @@ SceneFile lamp_scene(const char *name) {
     return scene;
 }
 
-Picture by_lamps(const CourseKernels &kernels, SceneFile scene) {
+Picture by_lamps(CourseKernels &kernels, SceneFile scene) {
     scene.render.estimator = PT_ESTIMATOR_LIGHT;
     return kernels.edited(scene);
 }

@@ -103,6 +103,12 @@ std::vector<double> CourseKernels::numbers(SceneFile scene, std::uint32_t sample
     return traced_numbers(render_radiance(*traced_, scene, {1}));
 }
 
+Picture CourseKernels::edited(const SceneFile &scene) {
+    Picture picture = render(edited_, scene);
+    rejected_ += static_cast<double>(edited_.stats().rejected_samples);
+    return picture;
+}
+
 const Context &CourseKernels::built_in() {
     if (!built_in_)
         built_in_.emplace(create_info(device_, ""));
@@ -110,10 +116,7 @@ const Context &CourseKernels::built_in() {
 }
 
 Picture CourseKernels::render(const Context &context, const SceneFile &scene) {
-    Picture picture{render_radiance(context, scene, {scene.sample_count.value()}), scene.render.width,
-                    scene.render.height, 0.0};
-    picture.rejected = static_cast<double>(context.stats().rejected_samples);
-    return picture;
+    return {render_radiance(context, scene, {scene.sample_count.value()}), scene.render.width, scene.render.height};
 }
 
 Measured CourseKernels::samples_needed(const std::string &name, SceneFile scene) {

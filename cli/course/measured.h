@@ -26,7 +26,6 @@ struct Picture {
     std::vector<float> radiance; // three values a pixel
     std::uint32_t width;
     std::uint32_t height;
-    double rejected; // samples that were NaN, infinite or negative
 
     double at(std::uint32_t x, std::uint32_t y, std::size_t channel) const;
     Measured mean(const std::string &name, std::size_t channel) const;
@@ -43,7 +42,8 @@ class CourseKernels {
 public:
     CourseKernels(std::string shader_dir, std::string device);
 
-    Picture edited(const SceneFile &scene) const { return render(edited_, scene); }
+    Picture edited(const SceneFile &scene);
+    double rejected() const { return rejected_; } // samples of all pictures by edited()
 
     // Shifted numbers of a sample, if the kernel passes them to traced_number().
     std::vector<double> numbers(SceneFile scene, std::uint32_t sample);
@@ -61,6 +61,7 @@ private:
     std::string shader_dir_;
     std::string device_;
     Context edited_;
+    double rejected_ = 0.0;
     std::optional<Context> built_in_;
     std::optional<TracedFolder> traced_folder_;
     std::optional<Context> traced_;

@@ -44,13 +44,13 @@ double pairs(const std::vector<Element> &elements, const Alike &alike) {
     return count;
 }
 
-Picture sampled(const CourseKernels &kernels, std::uint32_t sampler) {
+Picture sampled(CourseKernels &kernels, std::uint32_t sampler) {
     SceneFile scene = lamps_above_a_floor(side, samples);
     scene.render.sampler = sampler;
     return kernels.edited(scene);
 }
 
-Measured variance(const CourseKernels &kernels, const char *sampler, const Picture &picture) {
+Measured variance(CourseKernels &kernels, const char *sampler, const Picture &picture) {
     return relative_variance(concat("variance x samples, ", sampler), picture, samples,
                              kernels.edited(lamps_above_a_floor(2 * side, 1)));
 }
@@ -78,7 +78,10 @@ std::vector<Measured> measure_dimensions(CourseKernels &kernels) {
     const std::array<Numbers, 4> points{numbers(0), numbers(1), numbers(2), numbers(last)};
     std::vector<int> bases;
     std::array<Numbers, 2> shifts;
-    for (std::size_t i = 0; i < std::min({dimensions, points[0].size(), points[1].size(), points[2].size()}); ++i) {
+    double kept = 0.0;
+    const std::size_t count = std::min({dimensions, points[0].size(), points[1].size(), points[2].size()});
+    for (std::size_t i = 0; i < count; ++i) {
+        kept += points[1][i] == points[0][i] || points[1][i] == points[2][i] ? 1.0 / static_cast<double>(count) : 0.0;
         const int base = base_of(points[0][i], points[1][i], points[2][i]);
         if (base > 0) {
             bases.push_back(base);
@@ -90,7 +93,8 @@ std::vector<Measured> measure_dimensions(CourseKernels &kernels) {
     return {{"pairs of numbers with equal bases", pairs(bases, std::equal_to<>()), 0.0},
             {"bases with a common factor", pairs(bases, [](int a, int b) { return std::gcd(a, b) > 1; }), 0.0},
             {"pairs of equal shifts", std::max(pairs(shifts[0], are_near), pairs(shifts[1], are_near)), 0.0},
-            {"largest shifted number", points[3].empty() ? 0.0 : std::ranges::max(points[3]), 0.0}};
+            {"largest shifted number", points[3].empty() ? 0.0 : std::ranges::max(points[3]), 0.0},
+            {"fraction kept in the next sample", kept, 0.0}};
 }
 
 std::vector<Pattern> number_patterns() {
@@ -99,41 +103,45 @@ std::vector<Pattern> number_patterns() {
     const auto variances = [](const char *name, const char *hint, Range random, Range shifted,
                               Range unshifted = any_value, Range other = any_value) {
         return Pattern{name, hint,
-                       joined(any_values(3), joined({random, shifted}, joined(any_values(4), {unshifted, other})))};
+                       joined(any_values(3), joined({random, shifted}, joined(any_values(5), {unshifted, other})))};
     };
     const auto dimensions = [](const char *name, const char *hint, const Values &values) {
         return Pattern{name, hint, joined(any_values(5), joined(values, any_values(2)))};
     };
-    return {{"", "",
-             joined(exact(right_lamplight()), {exactly(1.0), better_than_random, exactly(0.0), exactly(0.0),
-                                               exactly(0.0), below_1, exactly(0.0), no_worse_than_random})},
-            variances("the sampler random is not random", "SAMPLER_RANDOM keeps random numbers; SAMPLER chooses.",
-                      {0.0, better_than_random.most}, any_value),
-            variances("numbers are still random", "The sampler halton-cp must return Halton's points.", any_value,
-                      exactly(1.0)),
-            variances("the sampler halton is still random",
-                      "The sampler halton must return Halton's points, without a shift.", exactly(1.0),
-                      better_than_random, exactly(1.0)),
-            variances("the sampler halton is shifted too", "The sampler halton has the same points in all pixels.",
-                      exactly(1.0), better_than_random, better_than_random),
-            variances("the default sampler has no shift",
-                      "Only the sampler halton has the same points in all pixels. All others are random or shifted.",
-                      exactly(1.0), better_than_random, exactly(0.0), exactly(0.0)),
-            variances("pixel shift missing", "Add a random number of the pixel and the dimension, modulo 1.", any_value,
-                      exactly(0.0)),
-            variances("integer division",
-                      "1 / base is 0 for integers, so all samples of a pixel have the same numbers.", any_value,
-                      exactly(samples)),
-            dimensions("equal numbers in all dimensions", "Each number of a sample needs its own base.",
-                       {some, any_value, any_value, any_value}),
-            dimensions("bases with a common factor", "Bases must be primes: 2, 3, 5, 7, 11 and so on.",
-                       {exactly(0.0), some, any_value, any_value}),
-            dimensions("one shift for all dimensions", "The shift's random number depends on pixel and dimension.",
-                       {exactly(0.0), exactly(0.0), some, any_value}),
-            dimensions("numbers are not traced", "next_number() must pass its numbers through traced_number().",
-                       {exactly(0.0), exactly(0.0), exactly(0.0), exactly(0.0)}),
-            dimensions("no modulo 1", "The sum of number and shift must return to [0, 1): take fract().",
-                       {exactly(0.0), exactly(0.0), any_value, {1.0 - 1e-6, infinity}})};
+    return {
+        {"", "",
+         joined(exact(right_lamplight()), {exactly(1.0), better_than_random, exactly(0.0), exactly(0.0), exactly(0.0),
+                                           below_1, exactly(0.0), exactly(0.0), no_worse_than_random})},
+        variances("the sampler random is not random", "SAMPLER_RANDOM keeps random numbers; SAMPLER chooses.",
+                  {0.0, better_than_random.most}, any_value),
+        variances("numbers are still random", "The sampler halton-cp must return Halton's points.", any_value,
+                  exactly(1.0)),
+        variances("the sampler halton is still random",
+                  "The sampler halton must return Halton's points, without a shift.", exactly(1.0), better_than_random,
+                  exactly(1.0)),
+        variances("the sampler halton is shifted too", "The sampler halton has the same points in all pixels.",
+                  exactly(1.0), better_than_random, better_than_random),
+        variances("the default sampler has no shift",
+                  "Only the sampler halton has the same points in all pixels. All others are random or shifted.",
+                  exactly(1.0), better_than_random, exactly(0.0), exactly(0.0)),
+        variances("pixel shift missing", "Add a random number of the pixel and the dimension, modulo 1.", any_value,
+                  exactly(0.0)),
+        variances("integer division", "1 / base is 0 for integers, so all samples of a pixel have the same numbers.",
+                  any_value, exactly(samples)),
+        dimensions("equal numbers in all dimensions", "Each number of a sample needs its own base.",
+                   {some, any_value, any_value, any_value, any_value}),
+        dimensions("bases with a common factor", "Bases must be primes: 2, 3, 5, 7, 11 and so on.",
+                   {exactly(0.0), some, any_value, any_value, any_value}),
+        dimensions("one shift for all dimensions", "The shift's random number depends on pixel and dimension.",
+                   {exactly(0.0), exactly(0.0), some, any_value, any_value}),
+        dimensions("numbers are not traced", "next_number() must pass its numbers through traced_number().",
+                   {exactly(0.0), exactly(0.0), exactly(0.0), exactly(0.0), any_value}),
+        dimensions("no modulo 1", "The sum of number and shift must return to [0, 1): take fract().",
+                   {exactly(0.0), exactly(0.0), any_value, {1.0 - 1e-6, infinity}, any_value}),
+        dimensions("a dimension that never changes", "Bases are primes, and 1 is none: they begin with 2.",
+                   {exactly(0.0), exactly(0.0), exactly(0.0), below_1, {0.1, 0.9}}),
+        dimensions("two samples with one point", "The point's index is the number of the sample: each has its own.",
+                   {exactly(0.0), exactly(0.0), exactly(0.0), below_1, {0.99, 1.0}})};
 }
 
 } // namespace cli

@@ -37,6 +37,7 @@ std::vector<Measured> measure_outside(CourseKernels &kernels);
 std::vector<Pattern> outside_patterns();
 
 std::vector<Measured> measure_motion(CourseKernels &kernels);
+std::vector<Measured> measure_moving_normals(CourseKernels &kernels);
 std::vector<Pattern> motion_patterns();
 
 } // namespace cli

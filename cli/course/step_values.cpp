@@ -31,13 +31,13 @@ std::vector<Measured> means(const Picture &picture, const std::string &what) {
     return {picture.mean(what + ", red", 0), picture.mean(what + ", green", 1), picture.mean(what + ", blue", 2)};
 }
 
-std::vector<Measured> floor_means(const CourseKernels &kernels, std::uint32_t estimator) {
+std::vector<Measured> floor_means(CourseKernels &kernels, std::uint32_t estimator) {
     SceneFile scene = lamps_above_a_floor(64, 64);
     scene.render.estimator = estimator;
     return means(kernels.edited(scene), "floor under five lamps");
 }
 
-Measured ball_mean(const CourseKernels &kernels, std::uint32_t estimator) {
+Measured ball_mean(CourseKernels &kernels, std::uint32_t estimator) {
     SceneFile scene = lamp_in_a_ball().scene;
     scene.render.estimator = estimator;
     scene.render.sampler = PT_SAMPLER_RANDOM;

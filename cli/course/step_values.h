@@ -17,7 +17,7 @@ Weight scaled_cosine(double scale);
 
 std::vector<Measured> means(const Picture &picture, const std::string &what);
 
-std::vector<Measured> floor_means(const CourseKernels &kernels, std::uint32_t estimator);
-Measured ball_mean(const CourseKernels &kernels, std::uint32_t estimator);
+std::vector<Measured> floor_means(CourseKernels &kernels, std::uint32_t estimator);
+Measured ball_mean(CourseKernels &kernels, std::uint32_t estimator);
 
 } // namespace cli

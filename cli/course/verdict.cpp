@@ -41,7 +41,7 @@ CourseVerdict judge(std::vector<Measured> measured, std::span<const Pattern> pat
         best = right;
     if (misfit(measured, *best) > 1.0)
         best = nullptr;
-    return {std::move(measured), right->values, best ? std::optional(*best) : std::nullopt, ""};
+    return {std::move(measured), right->values, best ? std::optional(*best) : std::nullopt, "", 0.0};
 }
 
 } // namespace cli

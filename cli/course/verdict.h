@@ -40,6 +40,7 @@ struct CourseVerdict {
     std::vector<Range> expected; // values of the nearest right pattern
     std::optional<Pattern> fitting;
     std::string other_light; // of a failed test for equal light
+    double rejected = 0.0;   // samples that were NaN, infinite, negative or too bright
 
     bool is_right() const { return fitting && fitting->is_right() && other_light.empty(); }
 };

@@ -8,12 +8,6 @@ DIFFERENCES = ("1-emission", "2-directions", "3-throughput", "4-numbers", "5-fil
 # Maps a difference to the steps that it makes right, if these are not the step of the same name.
 STEPS = {"6b-lamps": ("6b", "6c")}
 
-ASKING = """for (uint lamp = 0u; lamp < LAMP_COUNT; ++lamp) {
-        SeenLamp cone = seen_lamp(lamp, hit.position);
-        vec3 direction = random_lamp_direction(cone);
-        float cosine = geometric_term(hit.normal, direction);
-        if (cosine > 0.0 && nearest(Ray(hit.position, direction)).surface == lamp)
-            light +="""
 LAMP_RAY = "if (cosine > 0.0 && nearest(Ray(hit.position, direction)).surface == lamp)"
 REFLECTED = "ray = Ray(hit.position, direction);"
 
@@ -24,6 +18,8 @@ MISTAKES = (
      "return vec3(direction.xy, abs(direction.z));", "abs(z)"),
     ("2-directions", "length <= MAX_PATH_LENGTH", "length < MAX_PATH_LENGTH", "paths one vertex short"),
     ("2-directions", "const float NEAR = 0.001", "const float NEAR = 0.0", "self-intersection"),
+    ("2-directions", "Ray(hit.position, random", "Ray(origin, random", "rays start elsewhere"),
+    ("2-directions", "Ray(hit.position, random", "Ray(hit.position + 0.1 * hit.normal, random", "rays start elsewhere"),
     ("3-throughput", "float density = 1.0 / (2.0 * PI);", "float density = 1.0;", "missing 2 pi"),
     ("3-throughput", "float density = 1.0 / (2.0 * PI);", "float density = 1.0 / (1.98 * PI);", "1.98 pi"),
     ("3-throughput", "(n + 2.0) / (2.0 * PI) * lobe", "(n + 1.0) / (2.0 * PI) * lobe", "n + 1"),
@@ -54,13 +50,12 @@ MISTAKES = (
     ("6b-lamps", "if (!ASKS_LAMPS || length == 1u || hit.surface >= LAMP_COUNT)\n", "", "emission counted twice"),
     ("6b-lamps", "surface == lamp)", "surface < 99u)", "no shadows"),
     ("6b-lamps", "const bool ASKS_LAMPS = ", "const bool ASKS_LAMPS = false && ", "too many samples"),
-    ("6b-lamps", ASKING, ASKING.replace("for (uint lamp = 0u; lamp < LAMP_COUNT", """uint chosen = min(uint(next_number() * LAMP_COUNT), LAMP_COUNT - 1u);
-    for (uint lamp = chosen; lamp == chosen""").replace("light +=", "light += float(LAMP_COUNT) *"), "too many samples"),
     ("7-motion", "time = next_number();", "time = 0.5;", "one time for all samples"),
     ("7-motion", LAMP_RAY, LAMP_RAY.replace("if (", "float kept = time;\n time = 0.0;\n bool meets = ").replace(" == lamp)", """ == lamp;
         time = kept;
         if (meets)"""), "shadow rays at time 0"),
     ("7-motion", "ball_among(LAMP_COUNT, lamp, time)", "ball_among(LAMP_COUNT, lamp, 0.0)", "cones of lamps at another time"),
+    ("7-motion", "normalize(position - sphere.xyz)", "normalize(position - ball_at(i, 0.0).center_radius.xyz)", "normals at another time"),
     ("7-motion", REFLECTED, f"{REFLECTED} time = 0.0;", "reflected rays at time 0"),
     ("7-motion", REFLECTED, f"{REFLECTED} time = next_number();", "a new time for each ray"),
 )
@@ -71,6 +66,8 @@ LATE_MISTAKES = (
     ("7", "time = next_number();", "time = 2.0 * next_number() - 0.5;", "time outside [0, 1)"),
     ("4", "PRIMES[dimension - 1u]", "PRIMES[0]", "equal numbers in all dimensions"),
     ("4", "PRIMES[dimension - 1u]", "dimension + 1u", "bases with a common factor"),
+    ("4", "uint[](2u, ", "uint[](1u, ", "a dimension that never changes"),
+    ("4", "dimension - 1u], sample_index", "dimension - 1u], sample_index / 2u", "two samples with one point"),
     ("7", REFLECTED, f"{REFLECTED} time = 0.0;", "reflected rays at time 0"),
     ("7", REFLECTED, f"{REFLECTED} time = next_number();", "a new time for each ray"),
 )
@@ -152,6 +149,12 @@ class Coursework(CommandLineTest):
         os.mkdir(self.path("temporary"))
         self.expect(6, *check, TMPDIR=self.path("temporary"))
         self.assertEqual(os.listdir(self.path("temporary")), [])
+
+    def test_rejected_samples_are_counted(self):
+        self.apply("1-emission")
+        right = self.read("kernels/pathtrace.comp")
+        self.write("kernels/pathtrace.comp", right.replace("return material.emission;", "return sqrt(-material.emission);"))
+        self.assertRegex(self.verdict("1")[1][-1], r"^wrong: .* \([1-9]\d* samples were NaN, ")
 
     def test_grade_gives_points_for_right_steps(self):
         self.apply("1-emission")
