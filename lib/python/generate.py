@@ -79,19 +79,17 @@ def structs_text(headers, columns):
     for result, name, parameters in re.findall(r"typedef (\w+) \(\*(pt_\w+)\)\(([^)]*)\);", text):
         types = [python_type(kind.strip(), ()) for kind in re.findall(r"([^,]*?)\w+(?:,|$)", parameters)]
         lines.append(f"{name} = ctypes.CFUNCTYPE({', '.join(['None' if result == 'void' else NUMBERS[result], *types])})")
-    lines += ["", "", "class Struct(ctypes.Structure):", '    """Refuses unknown fields, which ctypes accepts."""', "",
+    lines += ["", "", "class Sized(ctypes.Structure):",
+              '    """A struct that begins with its size."""', "",
               "    def __init__(self, *others: Any, **fields: Any) -> None:",
-              "        for name in fields:",
-              "            if not hasattr(type(self), name):",
-              '                raise TypeError(f"{type(self).__name__} has no field {name}")',
-              '        if self._fields_[0][0] == "struct_size":', '            fields["struct_size"] = ctypes.sizeof(self)',
-              "        super().__init__(*others, **fields)"]
+              "        super().__init__(*others, struct_size=ctypes.sizeof(self), **fields)"]
     known = []
     for name, body in re.findall(r"\bstruct (\w+) \{(.*?)\}", text, re.DOTALL):
         members = [(member, python_type(kind, known)) for member, kind in members_of(body)]
+        base = "Sized" if members[0][0] == "struct_size" else "ctypes.Structure"
         fields = ", ".join(f'("{member}",~{kind.replace(" ", "~")})' for member, kind in members)
         fields = textwrap.fill(f"    _fields_ = [{fields}]", 120, subsequent_indent=" " * 16).replace("~", " ")
-        lines += ["", "", f"class {name}(Struct):", fields]
+        lines += ["", "", f"class {name}({base}):", fields]
         known.append(name)
     rows = ", ".join(f'"{name}":~({components},~"{types}")' for name, components, types in columns_of(columns))
     lines += ["", "", "# For each column of pt_sphere_array, the number and the type of its components.",

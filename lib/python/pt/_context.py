@@ -131,24 +131,24 @@ class Context:
         """Builds the kernels of accumulate. Cannot be interrupted."""
         self._call("pt_prepare")
 
-    def accumulate(self, sample_count: int, *, sample_limit: int = 0, sampling: Sampling = Sampling.BEST,
-                   progress: Progress | None = None, **stopping: float) -> Result:
+    def accumulate(self, sample_count: int, *, target_error: float = 0.0, time_limit: float = 0.0, sample_limit: int = 0,
+                   sampling: Sampling = Sampling.BEST, progress: Progress | None = None) -> Result:
         """Adds samples to every pixel.
 
         sample_count   >= 1; with a target error, the most to add
+        target_error   0: none. Otherwise returns Result.TARGET_REACHED once ErrorEstimate.relative_rmse_high is at most
+                       this value (0.01 is 1%) and there are enough samples to hit lamps smaller than a pixel
+        time_limit     0: none. Otherwise returns Result.LIMIT_REACHED after this number of seconds, with at least one sample
         sample_limit   with a target error, the most samples of a pixel after this and later calls; 0: after this call
         sampling       by default adaptive with a target error, else uniform
         progress       called about 20 times a second; if it returns True, the call returns Result.CANCELLED and keeps
                        the complete samples
-        stopping       target_error: returns Result.TARGET_REACHED once ErrorEstimate.relative_rmse_high is at most this
-                       value (0.01 is 1%) and there are enough samples to hit lamps smaller than a pixel. time_limit:
-                       returns Result.LIMIT_REACHED after this number of seconds, with at least one sample
         """
         if not 0 <= sample_count <= MOST_SAMPLES:
             raise ValueError(f"sample_count = {sample_count}: must be in [1, {MOST_SAMPLES}]")
         guard = self._guard()
         info = structs.pt_accumulate_info(sample_count=sample_count, sample_limit=sample_limit, sampling=sampling,
-                                          progress=guard.progress(progress), stopping=structs.pt_stopping(**stopping))
+                                          progress=guard.progress(progress), stopping=(target_error, time_limit))
         return self._call("pt_accumulate", info, guard=guard)
 
     def accumulate_tiles(self, samples: npt.ArrayLike, *, progress: Progress | None = None) -> Result:
@@ -209,18 +209,17 @@ class Context:
                      sampler=settings.sampler, estimator=settings.estimator,
                      coverage=self.readback(Quantity.COVERAGE) if settings.coverage else None)
 
-    def render(self, scene: Scene, camera: Camera, settings: RenderSettings, samples: int, *,
-               progress: Progress | None = None, denoise: bool = False, **stopping: float) -> Image:
+    def render(self, scene: Scene, camera: Camera, settings: RenderSettings, samples: int, *, target_error: float = 0.0,
+               time_limit: float = 0.0, progress: Progress | None = None, denoise: bool = False) -> Image:
         """Returns the image, also after progress returned True. A UserWarning has the text of warning(). `denoise` calls
-        pt.denoise for two images, each with half of the samples; `stopping`, as in accumulate, then applies to the result."""
+        pt.denoise for two images, each with half of the samples; target_error then applies to the result."""
         self.set_scene(scene)
         self.set_camera(camera)
         if denoise:
-            image = _render_denoised(self, settings, samples, stopping, progress)
+            image = _render_denoised(self, settings, samples, (target_error, time_limit), progress)
         else:
             self.set_render(settings)
-            rules: dict[str, Any] = stopping
-            self.accumulate(samples, progress=progress, **rules)
+            self.accumulate(samples, target_error=target_error, time_limit=time_limit, progress=progress)
             image = self.image()
         if (displaced := self.warning()) is not None:
             warnings.warn(str(displaced), stacklevel=2)
@@ -254,7 +253,7 @@ class Context:
             self._in_call = False
 
 
-def _render_denoised(context: Context, settings: RenderSettings, samples: int, stopping: dict[str, float],
+def _render_denoised(context: Context, settings: RenderSettings, samples: int, stopping: tuple[float, float],
                     progress: Progress | None) -> Image:
     most = max(samples // 2, 1)
     halves = [settings, replace(settings, seed=settings.seed ^ OTHER_SEED)]
@@ -281,7 +280,7 @@ def _render_denoised(context: Context, settings: RenderSettings, samples: int, s
             if context.accumulate(count - done, progress=share_of_all if progress else None) == Result.CANCELLED:
                 return None
             taken += count - done
-            films[index] = context.film() if any(stopping.values()) else None
+            films[index] = context.film() if any(stopping) else None
             coverage = context.readback(Quantity.COVERAGE) if settings.coverage else None
             added.append((context.readback(), context.stats(), coverage))
         guides = guides or (context.readback(Quantity.ALBEDO), context.readback(Quantity.NORMAL))

@@ -38,13 +38,13 @@ def denoise(first: npt.ArrayLike, second: npt.ArrayLike, albedo: npt.ArrayLike, 
     shape = images[0].shape
     if len(shape) != 3 or shape[2] != 3 or any(image.shape != shape for image in images):
         raise ValueError(f"shapes = {[image.shape for image in images]}: must all be (height, width, 3)")
-    return denoise_rounds(lambda _: images, shape, 1, {}, library_path, any_device)
+    return denoise_rounds(lambda _: images, shape, 1, (0.0, 0.0), library_path, any_device)
 
 
 def denoise_rounds(render: Callable[[int], Sequence[Pixels] | None], shape: tuple[int, ...], samples: int,
-                   stopping: dict[str, float], library_path: str | os.PathLike[str] | None = None,
+                   stopping: tuple[float, float], library_path: str | os.PathLike[str] | None = None,
                    any_device: bool = False) -> tuple[Pixels, ErrorEstimate]:
-    """`render(count)` returns the images of denoise(), which must stay alive, or None to stop."""
+    """`render(count)` returns the images of denoise(), which must stay alive, or None to stop. `stopping` is a pt_stopping's fields."""
     result, guard = np.empty(shape, np.float32), CallbackGuard()
     info = structs.pt_denoise_info(width=shape[1], height=shape[0], any_device=any_device, denoised=_pointer(result),
                                    library=c_string(find_library() if library_path is None else os.fspath(library_path)))
@@ -58,7 +58,7 @@ def denoise_rounds(render: Callable[[int], Sequence[Pixels] | None], shape: tupl
 
     guard.watch(add_round)
     rounds = structs.pt_rounds_info(sample_count=samples, render=structs.pt_round_fn(add_round),
-                                     stopping=structs.pt_stopping(**stopping))
+                                     stopping=stopping)
     error, loaded = structs.pt_error_estimate(), library()
     with guard:
         ended = loaded.pt_denoise_rounds(rounds, info, error)
