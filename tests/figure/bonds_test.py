@@ -245,8 +245,7 @@ class Looks(unittest.TestCase):
         self.assertGreater(through.camera.position[1] / without.camera.position[1], 1.3)
 
     def test_vectors(self):
-        """The longest vector is twice as long as the distance of neighbours, sqrt(200). A given scale applies to all vectors instead. Capsules of an arrow go from the
-        particle to the tip, and those of its head become thinner."""
+        """The longest vector is twice the distance of neighbours, sqrt(200). A given scale holds for all. Heads become thinner to the tip."""
         vectors, long = np.array([[0.0, 0, 3], [0, 0, 0], [4, 0, 3]]), 2 * np.sqrt(200)
         particles = Particles(10 * np.eye(3), dict(zip(("vx", "vy", "vz"), vectors.T)))
         for given in ("v", "vx,vy,vz", vectors):

@@ -32,10 +32,7 @@ def frames(read: Callable[[], Iterator[Particles]], options: Options) -> Iterato
 
 
 class Panels(Picture):
-    """Figures with the same camera, scale and range of colors.
-
-    sources   particles, the column that colors them or None, and the title
-    """
+    """Figures with the same camera, scale and range of colors. sources: particles, the column that colors them or None, the title."""
 
     def __init__(self, sources: Sequence[tuple[Particles, str | None, str]], options: Options) -> None:
         given = [(particles, {"color": column, "title": options.title or " "} if column else {}) for particles, column, _ in sources]
