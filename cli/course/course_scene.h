@@ -29,7 +29,7 @@ glm::dvec3 unturned(const glm::dvec3 &direction, const glm::dvec3 &normal);
 // Means of the picture, by quadrature over the sphere.
 Channels lamplight(const Turn &turn, const Weight &weight);
 
-// With a glossy floor, seen from a green lamp. A mirror would show a blue one.
+// The camera looks at a glossy floor from a green lamp. A mirror would show a blue lamp.
 SceneFile lamps_above_a_glossy_floor();
 
 // Its means, if lobes are about axis_of(ray, normal).
@@ -68,7 +68,7 @@ SceneFile disc(bool moves);
 inline constexpr double disc_radius = 10.3; // pixels
 inline constexpr Channels disc_emission{4.0, 0.5, 0.1};
 
-// At the picture's middle.
+// Holds at the picture's middle.
 double disc_cosine();
 
 // A moving blue ball hides a floor from the camera, then a red lamp from the floor. The sky is green.

@@ -241,7 +241,7 @@ TEST(FeatureMotion, IsWhetherAHugeBallMoves) {
     EXPECT_TRUE(moves({1e-9, 0, 0}));
 }
 
-// Eight small balls about a middle, a lamp of radius 10 at distance 50, and a sky. In the middle the lamp's light is a
+// Eight small balls about a middle, a lamp of radius 10 at distance 50, and a sky. The lamp's light in the middle is a
 // 25th of its radiance, 100.
 struct OpenScene {
     float sky = 1.9F;

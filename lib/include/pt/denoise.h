@@ -58,7 +58,7 @@ typedef struct pt_rounds_info {
     pt_stopping stopping;  /**< only the first round may exceed a limit */
 } pt_rounds_info;
 
-/** Calls pt_denoise after each round of rendering. With a rule in stopping, rounds end at 16, 24, 36, ...
+/** Calls pt_denoise after each round of rendering. If stopping has a rule, rounds end at 16, 24, 36, ...
  * samples per pixel, each 1.5 times the previous number. The last round is shorter if samples or time end first.
  *
  * Any thread. Returns PT_TARGET_REACHED, PT_LIMIT_REACHED, PT_CANCELLED if render stops, otherwise PT_OK. */
