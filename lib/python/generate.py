@@ -80,8 +80,11 @@ def structs_text(headers, columns):
         types = [python_type(kind.strip(), ()) for kind in re.findall(r"([^,]*?)\w+(?:,|$)", parameters)]
         lines.append(f"{name} = ctypes.CFUNCTYPE({', '.join(['None' if result == 'void' else NUMBERS[result], *types])})")
     lines += ["", "", "class Sized(ctypes.Structure):",
-              '    """A struct that begins with its size."""', "",
+              '    """A struct that begins with its size. Refuses unknown fields, which ctypes accepts."""', "",
               "    def __init__(self, *others: Any, **fields: Any) -> None:",
+              "        for name in fields:",
+              "            if not hasattr(type(self), name):",
+              '                raise TypeError(f"{type(self).__name__} has no field {name}")',
               "        super().__init__(*others, struct_size=ctypes.sizeof(self), **fields)"]
     known = []
     for name, body in re.findall(r"\bstruct (\w+) \{(.*?)\}", text, re.DOTALL):

@@ -70,6 +70,10 @@ class Pictures(unittest.TestCase):
         np.testing.assert_array_equal(decode_png((self.folder / "fixed.PNG").read_bytes()), expected)
         self.assertFalse(np.array_equal(self.image.to_srgb8(), expected))
 
+    def test_unknown_properties_are_refused(self):
+        with self.assertRaisesRegex(TypeError, "pt_display_info has no field gama"):
+            self.image.to_srgb8(gama=2.2)
+
     def test_a_black_picture(self):
         self.image.radiance, kept = np.zeros_like(self.image.radiance), self.image.radiance
         self.assertFalse(self.image.to_srgb8().any())

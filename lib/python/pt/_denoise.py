@@ -57,8 +57,7 @@ def denoise_rounds(render: Callable[[int], Sequence[Pixels] | None], shape: tupl
         return int(images is None)
 
     guard.watch(add_round)
-    rounds = structs.pt_rounds_info(sample_count=samples, render=structs.pt_round_fn(add_round),
-                                     stopping=stopping)
+    rounds = structs.pt_rounds_info(sample_count=samples, render=structs.pt_round_fn(add_round), stopping=stopping)
     error, loaded = structs.pt_error_estimate(), library()
     with guard:
         ended = loaded.pt_denoise_rounds(rounds, info, error)

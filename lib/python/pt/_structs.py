@@ -14,9 +14,12 @@ pt_take_bytes_fn = ctypes.CFUNCTYPE(c_int32, c_void_p, c_void_p, c_uint64)
 
 
 class Sized(ctypes.Structure):
-    """A struct that begins with its size."""
+    """A struct that begins with its size. Refuses unknown fields, which ctypes accepts."""
 
     def __init__(self, *others: Any, **fields: Any) -> None:
+        for name in fields:
+            if not hasattr(type(self), name):
+                raise TypeError(f"{type(self).__name__} has no field {name}")
         super().__init__(*others, struct_size=ctypes.sizeof(self), **fields)
 
 
