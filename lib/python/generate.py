@@ -80,7 +80,7 @@ def structs_text(headers, columns):
         types = [python_type(kind.strip(), ()) for kind in re.findall(r"([^,]*?)\w+(?:,|$)", parameters)]
         lines.append(f"{name} = ctypes.CFUNCTYPE({', '.join(['None' if result == 'void' else NUMBERS[result], *types])})")
     lines += ["", "", "class Sized(ctypes.Structure):",
-              '    """A struct that begins with its size. Refuses unknown fields, which ctypes accepts."""', "",
+              '    """Begins with its size, and refuses unknown fields."""', "",
               "    def __init__(self, *others: Any, **fields: Any) -> None:",
               "        for name in fields:",
               "            if not hasattr(type(self), name):",

@@ -44,7 +44,7 @@ def denoise(first: npt.ArrayLike, second: npt.ArrayLike, albedo: npt.ArrayLike, 
 def denoise_rounds(render: Callable[[int], Sequence[Pixels] | None], shape: tuple[int, ...], samples: int,
                    stopping: tuple[float, float], library_path: str | os.PathLike[str] | None = None,
                    any_device: bool = False) -> tuple[Pixels, ErrorEstimate]:
-    """`render(count)` returns the images of denoise(), which must stay alive, or None to stop. `stopping` is a pt_stopping's fields."""
+    """`render(count)` returns the images of denoise(), which must stay alive, or None to stop. `stopping` has pt_stopping's fields."""
     result, guard = np.empty(shape, np.float32), CallbackGuard()
     info = structs.pt_denoise_info(width=shape[1], height=shape[0], any_device=any_device, denoised=_pointer(result),
                                    library=c_string(find_library() if library_path is None else os.fspath(library_path)))

@@ -14,7 +14,7 @@ pt_take_bytes_fn = ctypes.CFUNCTYPE(c_int32, c_void_p, c_void_p, c_uint64)
 
 
 class Sized(ctypes.Structure):
-    """A struct that begins with its size. Refuses unknown fields, which ctypes accepts."""
+    """Begins with its size, and refuses unknown fields."""
 
     def __init__(self, *others: Any, **fields: Any) -> None:
         for name in fields:
