@@ -109,7 +109,7 @@ void refuse_to_destroy(pt_context &context, const char *reason) noexcept {
     refusal = {&context, reason};
     if (!told)
         guard(thread_last_error, [&] {
-            context.renderer.log().write(PT_LOG_ERROR, std::string("pt_destroy: ") + reason + "; it was not destroyed");
+            context.renderer.log().write(PT_LOG_ERROR, "pt_destroy: " + std::string(reason) + "; it was not destroyed");
         });
 }
 
