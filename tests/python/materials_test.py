@@ -77,7 +77,3 @@ class Minnaert(unittest.TestCase):
         path.write_text(text.replace("(1.5 / PI)", "(1.35 / PI)"))
         self.context.reload_shaders()
         self.assertGreater(self.difference(SCENES["a sky alone"], pt.Estimator.BSDF, expected)[0], 1)
-
-
-if __name__ == "__main__":
-    unittest.main()
