@@ -66,23 +66,16 @@ class FarAway(unittest.TestCase):
         particles = Particles(np.vstack([CUBE, CUBE + 1000]), {"kind": np.repeat([0, 1], 2000)})
         drawn = prepare(particles, Options(radius=0.1, where="kind == 1"))
         self.assertEqual((len(drawn.centers), drawn.notes), (2000, []))
-        particles.positions[0] = -5000
-        self.assertEqual(len(prepare(particles, Options(radius=0.1, where="kind == 1")).centers), 2000)
         particles.positions[2000] = -5000
         drawn = prepare(particles, Options(radius=0.1, where="kind == 1"))
         np.testing.assert_array_equal(drawn.centers, CUBE[1:] + 1000)
         self.assertIn("1 of 2,000 balls is not drawn", drawn.notes[0])
 
-    def test_the_usual_reach_is_that_of_all_but_the_farthest(self):
-        reaches = reaches_of(np.arange(1000.0)[:, None] * (1, 0.5, 0), np.full(1, 2.0))
-        np.testing.assert_array_equal(np.sort(reaches)[::-1][:3], [501.5, 501.5, 500.5])
-        self.assertEqual(usual_reach(reaches), np.sort(reaches)[994])
-
 
 class Cells(unittest.TestCase):
     def test_edges_of_cells_of_all_kinds(self):
         origin, rows = np.array([-3.0, 1, 2]), np.array([[4.0, 0, 0], [1, 5, 0], [0, 1, 6]])
-        for kept in ((0, 1, 2), (1, 0, 2), (0, 1), (0, 2), (2,)):
+        for kept in ((0, 1, 2), (0, 2), (2,)):
             vectors = np.zeros((3, 3))
             vectors[:len(kept)] = rows[list(kept)]
             cell = Cell(origin, vectors, vectors.any(axis=1))
@@ -200,9 +193,6 @@ class Radii(unittest.TestCase):
         radii = prepare(Particles(positions, elements=np.full(4, 18, np.uint8)), Options()).radii
         span = 2 * usual_reach(reaches_of(positions, np.zeros(1)))
         self.assertAlmostEqual(4 * np.pi * float(radii.max())**2 / span**2, 0.01)
-
-    def test_one_atom_alone_has_its_covalent_radius(self):
-        self.assertAlmostEqual(float(prepare(Particles(np.zeros((1, 3)), elements=np.ones(1, np.uint8)), Options()).radii[0]), 0.31)
 
     def test_one_far_away_is_not_the_fourth_neighbour_of_all_others(self):
         for count in (5, 8, 11):
