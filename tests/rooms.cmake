@@ -116,8 +116,7 @@ if(NOT PT_SANITIZE)
             geometry/first_hit_random_test.cpp
             geometry/hidden_from_camera_test.cpp
             geometry/intersection_test.cpp
-            geometry/lens_test.cpp
-            geometry/motion_test.cpp
+            geometry/motion_and_lens_test.cpp
             geometry/tree_path_test.cpp
             geometry/tree_test.cpp
             kernel/scene_source_test.cpp
