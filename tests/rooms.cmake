@@ -30,7 +30,6 @@ pt_add_tests(
   geometry/sphere_array_rules_test.cpp
   geometry/sphere_array_test.cpp
   geometry/sphere_order_test.cpp
-  geometry/sphere_source_test.cpp
   geometry/sphere_tree_test.cpp
   geometry/tree_cuts_test.cpp
   geometry/twins_test.cpp
