@@ -31,7 +31,6 @@ pt_add_tests(
   geometry/sphere_array_test.cpp
   geometry/sphere_order_test.cpp
   geometry/sphere_tree_test.cpp
-  geometry/tree_cuts_test.cpp
   geometry/twins_test.cpp
   kernel/gpu_layout_test.cpp
   kernel/own_kernel_clock_test.cpp
@@ -116,7 +115,6 @@ if(NOT PT_SANITIZE)
             geometry/hidden_from_camera_test.cpp
             geometry/intersection_test.cpp
             geometry/motion_and_lens_test.cpp
-            geometry/tree_path_test.cpp
             geometry/tree_test.cpp
             kernel/scene_source_test.cpp
             light/lamp_choice_test.cpp
