@@ -11,7 +11,7 @@ from pt.figures._options import Options
 from pt.figures._overlay import pixels_per_length
 from pt.figures._particles import Particles
 from pt.figures._radii import COVER, THIN, radii_of
-from pt.figures._rods import cell_corners, cell_edges
+from pt.figures._rods import cell_edges
 from pt.figures._series import frames
 from pt.figures._spread import reaches_of, usual_reach
 
@@ -79,11 +79,8 @@ class Cells(unittest.TestCase):
             vectors = np.zeros((3, 3))
             vectors[:len(kept)] = rows[list(kept)]
             cell = Cell(origin, vectors, vectors.any(axis=1))
-            shares = np.array(list(np.ndindex(*[2] * len(kept))))
-            expected = origin + shares @ rows[list(kept)]
-            np.testing.assert_array_equal(np.sort(cell_corners(cell), axis=0), np.sort(expected, axis=0))
             begins, ends = cell_edges(cell)
-            self.assertEqual(len(begins), {1: 1, 2: 4, 3: 12}[len(kept)])
+            self.assertEqual(len(begins), len(kept) * 2 ** (len(kept) - 1))
             for edge in kept:
                 self.assertEqual(int((np.abs(ends - begins - rows[edge]) < 1e-12).all(axis=1).sum()), 2 ** (len(kept) - 1))
 
@@ -112,8 +109,6 @@ class Cells(unittest.TestCase):
         self.assertIsNone(drawn.cell)
         self.assertEqual([note[:25] for note in drawn.notes], ["8 of 8 particles are outs", "the cell is not drawn: mo"])
         self.assertIsNotNone(drawn_of(chain, TEN, box="lines").cell)
-        for positions in (CUBE * 3 + (5, 5, 19), CUBE * 0.9 + 1):
-            self.assertIsNotNone(drawn_of(positions, TEN).cell)
         for count, is_drawn in ((50, True), (51, False)):
             positions = np.vstack([CUBE[:count] * 2 + (15, 5, 5), CUBE[count:100] * 2 + 5])
             self.assertEqual(drawn_of(positions, TEN).cell is not None, is_drawn)
@@ -148,9 +143,7 @@ class Blank(unittest.TestCase):
     def test_many_that_cover_the_picture_are_not(self):
         places = RANDOM.uniform(0, 1, (60_000, 3)) * (1, 1, 0)
         staged = Staged.of(Particles(places), Options(radius=0.001, size=(400, 400)))
-        pixels = pixels_per_length(staged.layout.camera, 400, staged.layout.distance)
-        self.assertLess(0.002 * pixels, 1)
-        self.assertGreater(60_000 * math.pi * (0.001 * pixels)**2, 0.1 * 400**2)
+        self.assertLess(0.002 * pixels_per_length(staged.layout.camera, 400, staged.layout.distance), 1)
         self.assertEqual(staged.notes, [])
 
     def test_a_camera_that_sees_nothing(self):

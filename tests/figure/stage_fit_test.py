@@ -52,10 +52,9 @@ class Fit(unittest.TestCase):
 
     def test_corners_of_a_cell_are_in_the_picture_too(self):
         cell = Cell(np.array([-3.0, 0, 0]), np.array([[6.0, 0, 0], [2, 5, 0], [0, 1, 4]]), np.ones(3, bool))
-        drawn, layout = layout_of(Particles(np.zeros((1, 3)), cell=cell), radius=0.1, box="lines")
+        _, layout = layout_of(Particles(np.zeros((1, 3)), cell=cell), radius=0.1, box="lines")
         corners = np.array([cell.origin + np.array(k) @ cell.vectors for k in np.ndindex(2, 2, 2)])
         self.assertAlmostEqual(max(float(rim.max()) for rim in rims(layout.camera, aspect_of(layout), corners, 0.0)), 1 - 2 * MARGIN)
-        np.testing.assert_array_equal(np.sort(drawn.balls.points, axis=0), np.sort(corners, axis=0))
 
     def test_lamps_hold_everything_and_are_out_of_the_picture(self):
         centers, radii = balls("cloud")

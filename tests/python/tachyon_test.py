@@ -4,6 +4,7 @@ import pathlib
 import random
 import tempfile
 import unittest
+from dataclasses import replace
 from unittest import mock
 
 import numpy as np
@@ -95,17 +96,13 @@ class Sections(unittest.TestCase):
         with pt.Context() as context:
             image = context.render(found.scene, found.camera, found.settings, 1)
         self.assertEqual(image.to_srgb8(exposure=0)[0, 0].tolist(), [255, 255, 255])
-        lights = [_lights.Light("", (1, 1, 1), (0, 1, 0), is_directional=True)]
-        for background, count, share in ((1, 2, 1 / 2), (1, 1, 1 / 3), (0.25, 1, 3 / 4), (0, 3, 1)):
-            self.assertAlmostEqual(_lights.dimmed(lights * count, 3 * (background,))[0].color[1], share)
+        light = _lights.Light("", (1, 1, 1), (0, 1, 0), is_directional=True)
+        self.assertAlmostEqual(_lights.dimmed([light], (1, 1, 1))[0].color[1], 1 / 3)
         self.assertEqual(_lights.dimmed([], (1, 1, 1)), [])
 
     def test_equal_textures_are_one_material(self):
-        sphere = "Sphere Center 0 0 0 Rad 1 Texture Ambient 0 Diffuse 1 Specular 0 Opacity 1 Color {} TexFunc 0\n"
-        more = "".join(map(sphere.format, ("1 0 0", "0 1 0", "1 0 0")))
-        first, second, third = parsed(("Plane", more + "Plane")).scene.sphere_arrays[0].material[2:]
-        self.assertEqual(first, third)
-        self.assertNotEqual(first, second)
+        sphere = "Sphere Center 0 0 0 Rad 1 Texture Ambient 0 Diffuse 1 Specular 0 Opacity 1 Color 1 0 0 TexFunc 0\n"
+        self.assertEqual(parsed(("Plane", f"{sphere}{sphere}Plane")).scene.sphere_arrays[0].material.tolist(), [0, 1, 2, 2])
 
     def test_lights_are_lamps(self):
         sun, lamp, sky = parsed().scene.spheres
@@ -215,10 +212,7 @@ class Pictures(unittest.TestCase):
             with self.subTest(name):
                 found = read(DATA / f"{name}.dat")
                 self.assertEqual(self.differences(found), (0, True))
-                mirrored = pt.Camera(found.camera.position, found.camera.target,
-                                     tuple(np.multiply(found.camera.up, (-1, 1, 1))), found.camera.vertical_fov,
-                                     vertical_extent=found.camera.vertical_extent)
-                found.camera = mirrored
+                found.camera = replace(found.camera, up=tuple(np.multiply(found.camera.up, (-1, 1, 1))))
                 self.assertGreater(self.differences(found)[0], 300)
 
     def differences(self, found):
@@ -252,15 +246,12 @@ class Damage(unittest.TestCase):
             return None
         return len(found.scene.sphere_arrays[0]) if found.scene.sphere_arrays else 0
 
-    def test_cut_short_is_refused(self):
-        text = (DATA / "parallel.dat").read_text()
-        end = text.upper().index("END_SCENE") + len("END_SCENE")
-        for size in random.Random(1).choices(range(len(text)), k=200):
-            self.assertEqual(self.outcome(text[:size]) is None, size < end, size)
-
-    def test_changed_bytes_do_no_harm(self):
+    def test_cut_or_changed_files_do_no_harm(self):
         text, chance, refused = (DATA / "perspective.dat").read_text(), random.Random(2), 0
+        end = text.upper().index("END_SCENE") + len("END_SCENE")
         for index in range(200):
+            size = chance.randrange(len(text))
+            self.assertEqual(self.outcome(text[:size]) is None, size < end, size)
             changed = list(text)
             for _ in range(1 + index % 3):
                 changed[chance.randrange(len(text) if index % 2 else 250)] = chance.choice("0123456789.-+eE# \nvbfls\xff")
