@@ -50,7 +50,9 @@ void *allocate(std::size_t size) noexcept {
     return header + 1;
 }
 
-void *allocate_or_throw(std::size_t size) {
+} // namespace
+
+void *operator new(std::size_t size) {
     void *const memory = allocate(size);
     if (!memory) {
         threw = threw || in_library;
@@ -58,8 +60,13 @@ void *allocate_or_throw(std::size_t size) {
     }
     return memory;
 }
-
-void release(void *memory) noexcept {
+void *operator new(std::size_t size, const std::nothrow_t &) noexcept {
+    return allocate(size);
+}
+void *operator new[](std::size_t size, const std::nothrow_t &) noexcept {
+    return allocate(size);
+}
+void operator delete(void *memory) noexcept {
     if (!memory)
         return;
     Header *const header = static_cast<Header *>(memory) - 1;
@@ -69,54 +76,16 @@ void release(void *memory) noexcept {
     }
     std::free(header);
 }
-
-} // namespace
-
-void *operator new(std::size_t size) {
-    return allocate_or_throw(size);
-}
-void *operator new[](std::size_t size) {
-    return allocate_or_throw(size);
-}
-void *operator new(std::size_t size, const std::nothrow_t &) noexcept {
-    return allocate(size);
-}
-void *operator new[](std::size_t size, const std::nothrow_t &) noexcept {
-    return allocate(size);
-}
-void operator delete(void *memory) noexcept {
-    release(memory);
-}
-void operator delete[](void *memory) noexcept {
-    release(memory);
-}
 void operator delete(void *memory, std::size_t) noexcept {
-    release(memory);
-}
-void operator delete[](void *memory, std::size_t) noexcept {
-    release(memory);
-}
-void operator delete(void *memory, const std::nothrow_t &) noexcept {
-    release(memory);
-}
-void operator delete[](void *memory, const std::nothrow_t &) noexcept {
-    release(memory);
+    operator delete(memory);
 }
 
 namespace faults {
 
-InLibrary::InLibrary() {
-    in_library = true;
-}
+InLibrary::InLibrary(bool is_in) : was_in_(std::exchange(in_library, is_in)) {}
 
 InLibrary::~InLibrary() {
-    in_library = false;
-}
-
-OutOfLibrary::OutOfLibrary() : was_in_library_(std::exchange(in_library, false)) {}
-
-OutOfLibrary::~OutOfLibrary() {
-    in_library = was_in_library_;
+    in_library = was_in_;
 }
 
 void fail_allocation(std::size_t number, bool goes_on) {

@@ -5,24 +5,16 @@
 
 namespace faults {
 
+// Marks this thread's allocations as the library's, or as those of Vulkan or callbacks, which do not fail.
 class InLibrary {
 public:
-    InLibrary();
+    explicit InLibrary(bool is_in = true);
     ~InLibrary();
     InLibrary(const InLibrary &) = delete;
     InLibrary &operator=(const InLibrary &) = delete;
-};
-
-// Allocations by Vulkan or callbacks are not the library's. They do not fail while this object exists.
-class OutOfLibrary {
-public:
-    OutOfLibrary();
-    ~OutOfLibrary();
-    OutOfLibrary(const OutOfLibrary &) = delete;
-    OutOfLibrary &operator=(const OutOfLibrary &) = delete;
 
 private:
-    bool was_in_library_;
+    bool was_in_;
 };
 
 // `number` counts from 1, and 0 stops failures. With `goes_on`, all later allocations fail too.

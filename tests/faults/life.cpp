@@ -3,6 +3,7 @@
 #include "tests/faults/allocations.h"
 #include "tests/faults/vulkan_calls.h"
 #include "tests/support/context_calls.h"
+#include "tests/support/context_fixture.h"
 #include "tests/support/image_target.h"
 #include "tests/support/scene_of.h"
 #include "tests/support/shared_context.h"
@@ -16,7 +17,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cstddef>
+#include <utility>
 
 namespace faults {
 
@@ -24,7 +25,9 @@ namespace {
 
 constexpr uint32_t width = 24;
 constexpr uint32_t height = 20;
+constexpr uint32_t film_end = 18;
 constexpr uint32_t other_film_end = 12;
+const std::string uneven_step = "pt_accumulate, to a target";
 
 // Paths are so long that a millisecond is too short for all pixels.
 struct Scene {
@@ -62,18 +65,49 @@ pt_result start_and_poll(pt_context *context, const pt_accumulate_info *info) {
     return result;
 }
 
-uint64_t no_kernels(void *, const char *, void *, uint64_t) {
-    return 0;
+// The film then depends on the target alone, not on calls before or on failures.
+pt_result accumulate_to_target(pt_context *context) {
+    const pt_accumulate_info info = accumulate_info(1U << 20, 0.1, &go_on);
+    return pt_accumulate(context, &info);
 }
 
-void forget_kernels(void *, const char *, const void *, uint64_t) {}
+pt_result create(const Setting &setting, pt_context **context) {
+    auto info = sized<pt_create_info>();
+    info.submit_milliseconds = setting.submit_milliseconds;
+    info.load_kernels = [](void *, const char *, void *, uint64_t) -> uint64_t { return 0; };
+    info.store_kernels = [](void *, const char *, const void *, uint64_t) {};
+    return create_shared(setting.device_count, info, context, false, 0);
+}
+
+template <typename Function>
+pt_result run(const Function &function) {
+    const InLibrary in_library;
+    return function();
+}
+
+// A long error message enlarges the thread's message buffer once, so that later messages do not allocate.
+void keep_a_long_message() {
+    const std::string no_device(1000, '?');
+    auto create = sized<pt_create_info>();
+    create.device = no_device.c_str();
+    pt_context *context = nullptr;
+    EXPECT_EQ(pt_create(&create, &context), PT_ERROR_NO_DEVICE);
+}
 
 } // namespace
 
-Life::Life(const Setting &setting, const ExpectedImages &expected, const Steps &injected) :
+std::size_t place_in(const std::string &step, std::size_t number) {
+    return step == uneven_step ? number + number * number * number / 16 : number;
+}
+
+Life::Life(const Setting &setting, const Expected &expected, const Injection &injection, std::size_t number,
+           Steps &left, Steps &met) :
     setting_(setting),
     expected_(expected),
-    left_(injected) {
+    injection_(injection),
+    number_(number),
+    left_(left),
+    met_(met) {
     pose_as_gpu(setting.gpu);
 }
 
@@ -81,36 +115,7 @@ Life::~Life() {
     pose_as_gpu(false);
 }
 
-Steps Life::all_steps() {
-    return {"pt_get_devices, count",
-            "pt_get_devices",
-            "pt_create",
-            "pt_get_context_device",
-            "pt_set_scene",
-            "pt_set_camera",
-            "pt_set_render",
-            "pt_prepare",
-            "pt_accumulate",
-            "pt_readback, radiance",
-            "pt_readback, standard error",
-            "pt_map_image",
-            "pt_readback, objects",
-            "pt_readback, coverage",
-            "pt_accumulate, to a target",
-            "pt_get_error_estimate",
-            "pt_get_accuracy",
-            "pt_save_film",
-            "pt_set_scene, again",
-            "pt_add_film",
-            "pt_set_camera, again",
-            "pt_start and pt_poll",
-            "pt_set_render, smaller",
-            "pt_accumulate, again",
-            "pt_destroy"};
-}
-
-void Life::live(Injection &injection) {
-    injection_ = &injection;
+void Life::live() {
     try {
         tell();
     } catch (const End &) {
@@ -125,15 +130,7 @@ void Life::tell() {
     auto count = static_cast<uint32_t>(devices.size());
     look("pt_get_devices, count", [&] { return pt_get_devices(nullptr, &count); });
     look("pt_get_devices", [&] { return pt_get_devices(devices.data(), &count); });
-
-    auto create = sized<pt_create_info>();
-    create.submit_milliseconds = setting_.submit_milliseconds;
-    create.load_kernels = &no_kernels;
-    create.store_kernels = &forget_kernels;
-    call("pt_create", [&] {
-        return setting_.device_count == 1 ? pt_create(&create, &context_)
-                                          : create_shared(setting_.device_count, create, &context_);
-    });
+    call("pt_create", [&] { return create(setting_, &context_); });
     look("pt_get_context_device", [&] { return pt_get_context_device(context_, devices.data()); });
 
     const Scene scene;
@@ -147,17 +144,15 @@ void Life::tell() {
     call("pt_set_camera", set_camera);
     call("pt_set_render", set_render);
     rows_ = height;
-
     look("pt_prepare", [&] { return pt_prepare(context_); });
 
-    accumulate_to("pt_accumulate", 2, 0.0);
-    readback("pt_readback, radiance", PT_QUANTITY_RADIANCE);
-    readback("pt_readback, standard error", PT_QUANTITY_STANDARD_ERROR);
-    map_image("pt_map_image");
-    read_of_scene("pt_readback, objects", PT_QUANTITY_OBJECT);
-    read_of_scene("pt_readback, coverage", PT_QUANTITY_COVERAGE);
-    accumulate_to("", 16, 0.0);
-    accumulate_to("pt_accumulate, to a target", 18, 1e-6);
+    accumulate_to("pt_accumulate", 2);
+    read("pt_readback, radiance", PT_QUANTITY_RADIANCE);
+    read("pt_readback, standard error", PT_QUANTITY_STANDARD_ERROR);
+    map_image();
+    read("pt_readback, objects", PT_QUANTITY_OBJECT);
+    read("pt_readback, coverage", PT_QUANTITY_COVERAGE);
+    accumulate_to("", film_end);
     look("pt_get_error_estimate", [&] {
         auto error = sized<pt_error_estimate>();
         return pt_get_error_estimate(context_, &error);
@@ -167,24 +162,22 @@ void Life::tell() {
         uint32_t row_count = rows.size();
         return pt_get_accuracy(context_, rows.data(), &row_count);
     });
-
-    save_film("pt_save_film");
+    save_film();
 
     call("pt_set_scene, again", set_scene);
-    accumulate_to("", 1, 0.0);
-    add_film("pt_add_film");
+    accumulate_to("", 1);
+    call("pt_add_film",
+         [&] { return pt_add_film(context_, expected_.other_film.data(), expected_.other_film.size()); });
+    EXPECT_EQ(samples(), other_film_end);
+    expect_image("pt_add_film");
     call("pt_set_camera, again", set_camera);
-    accumulate_to("pt_start and pt_poll", 3, 0.0, &start_and_poll);
+    accumulate_to("pt_start and pt_poll", 3, &start_and_poll);
     the_render.row_count = height / 2;
     call("pt_set_render, smaller", set_render);
     rows_ = height / 2;
-    accumulate_to("pt_accumulate, again", 1, 0.0);
+    accumulate_to("pt_accumulate, again", 1);
+    accumulate_unevenly();
     destroy();
-}
-
-pt_result Life::run(const Function &function) {
-    const InLibrary in_library;
-    return function();
 }
 
 void Life::look(const std::string &step, const Function &function) {
@@ -192,78 +185,61 @@ void Life::look(const std::string &step, const Function &function) {
         call(step, function);
 }
 
-void Life::call(const std::string &step, const Function &function) {
-    const State before = state();
-    call(step, function, [&] {
-        const State after = state();
-        EXPECT_EQ(after.sample_count, before.sample_count) << step;
-        EXPECT_EQ(after.rejected_samples, before.rejected_samples) << step;
-        expect_image(step, after.sample_count);
-    });
-}
-
 void Life::call(const std::string &step, const Function &function, const std::function<void()> &after_failure) {
     if (left_.empty())
         throw End();
     if (left_.erase(step) > 0) {
-        attempted_.insert(step);
-        injection_->arm();
+        const uint32_t before = samples();
+        injection_.arm(step, number_);
         const pt_result result = run(function);
-        if (injection_->disarm(step, result, pt_last_error(context_)))
+        const bool is_met = injection_.disarm(step, result, pt_last_error(context_));
+        if (is_met)
             met_.insert(step);
         lost_ = result == PT_ERROR_DEVICE_LOST && context_;
         if (lost_)
             throw End();
         if (result >= 0)
             return;
-        EXPECT_TRUE(met_.contains(step)) << step << ": " << pt_last_error(context_);
-        after_failure();
+        EXPECT_TRUE(is_met) << step << ": " << pt_last_error(context_);
+        if (after_failure) {
+            after_failure();
+        } else {
+            EXPECT_EQ(samples(), before) << step;
+            expect_image(step);
+        }
     }
     EXPECT_GE(run(function), PT_OK) << step << ": " << pt_last_error(context_);
 }
 
 // A call that fails keeps its complete samples. If memory is short, several devices may keep no samples.
-void Life::accumulate_to(const std::string &step, uint32_t sample_count, double target_error, Accumulate accumulate) {
-    auto info = sized<pt_accumulate_info>();
-    info.sample_count = sample_count - state().sample_count;
-    info.progress = &go_on;
-    info.stopping.target_error = target_error;
-    info.sampling = PT_SAMPLING_UNIFORM;
-    const uint32_t before = state().sample_count;
+void Life::accumulate_to(const std::string &step, uint32_t goal, Accumulate accumulate) {
+    const uint32_t before = samples();
+    pt_accumulate_info info = accumulate_info(goal - before, 0.0, &go_on);
     call(
         step, [&] { return info.sample_count == 0 ? PT_OK : accumulate(context_, &info); },
         [&] {
-            const State after = state();
-            EXPECT_LE(after.sample_count, sample_count) << step;
-            const bool all_gone = setting_.device_count > 1 && after.sample_count == 0;
-            EXPECT_TRUE(after.sample_count >= before || all_gone) << step;
-            expect_image(step, after.sample_count);
-            info.sample_count = sample_count - after.sample_count;
+            const uint32_t after = samples();
+            EXPECT_LE(after, goal) << step;
+            const bool all_gone = setting_.device_count > 1 && after == 0;
+            EXPECT_TRUE(after >= before || all_gone) << step;
+            expect_image(step);
+            info.sample_count = goal - after;
         });
-    EXPECT_EQ(state().sample_count, sample_count) << step;
-    expect_image(step, sample_count);
+    EXPECT_EQ(samples(), goal) << step;
+    expect_image(step);
 }
 
-void Life::readback(const std::string &step, uint32_t quantity) {
-    Image image(std::size_t{width} * rows_ * 3);
-    const pt_image target = image_target(image, quantity);
-    call(step, [&] { return pt_readback(context_, &target); });
-    const auto &images = quantity == PT_QUANTITY_RADIANCE ? expected_.radiance : expected_.standard_error;
-    EXPECT_EQ(image, images.at(state().sample_count)) << step;
-}
-
-void Life::map_image(const std::string &step) {
-    auto source = sized<pt_image>();
-    void *data = nullptr;
-    uint64_t size_bytes = 0;
-    look(step, [&] { return pt_map_image(context_, &source, &data, &size_bytes); });
-    if (!data)
+void Life::accumulate_unevenly() {
+    if (!left_.contains(uneven_step))
         return;
-    const auto *const pixels = static_cast<const float *>(data);
-    EXPECT_EQ(Image(pixels, pixels + size_bytes / sizeof(float)), expected_.radiance.at(state().sample_count)) << step;
+    call(
+        uneven_step, [&] { return std::min<pt_result>(accumulate_to_target(context_), PT_OK); }, [] {});
+    EXPECT_TRUE(film_of(context_) == expected_.uneven_film) << "another film";
 }
 
-void Life::read_of_scene(const std::string &step, uint32_t quantity) {
+void Life::read(const std::string &step, uint32_t quantity) {
+    if (!left_.contains(step))
+        return;
     constexpr uint32_t unwritten = PT_NO_OBJECT - 1;
     const bool is_whole = quantity == PT_QUANTITY_OBJECT;
     std::vector<uint32_t> words(std::size_t{width} * rows_ * (is_whole ? 1 : 3), unwritten);
@@ -280,37 +256,40 @@ void Life::read_of_scene(const std::string &step, uint32_t quantity) {
     EXPECT_EQ(words, first) << step;
 }
 
-void Life::save_film(const std::string &step) {
-    if (!left_.contains(step))
+void Life::map_image() {
+    auto source = sized<pt_image>();
+    void *data = nullptr;
+    uint64_t size_bytes = 0;
+    look("pt_map_image", [&] { return pt_map_image(context_, &source, &data, &size_bytes); });
+    if (!data)
         return;
-    Film film(expected_.film.size());
-    uint64_t size = film.size();
-    call(
-        step, [&] { return pt_save_film(context_, film.data(), &size); },
-        [&] { EXPECT_EQ(size, film.size()) << step; });
-    EXPECT_TRUE(film == expected_.film) << step << ": other bytes";
+    const auto *const pixels = static_cast<const float *>(data);
+    EXPECT_EQ(Image(pixels, pixels + size_bytes / sizeof(float)), expected_.images.at(samples()));
 }
 
-void Life::add_film(const std::string &step) {
-    call(step, [&] { return pt_add_film(context_, expected_.other_film.data(), expected_.other_film.size()); });
-    EXPECT_EQ(state().sample_count, other_film_end) << step;
-    expect_image(step, other_film_end);
+void Life::save_film() {
+    const std::string step = "pt_save_film";
+    Film film(expected_.film.size());
+    uint64_t size = film.size();
+    if (!left_.contains(step))
+        return;
+    call(
+        step, [&] { return pt_save_film(context_, film.data(), &size); }, [&] { EXPECT_EQ(size, film.size()); });
+    EXPECT_TRUE(film == expected_.film) << "other bytes";
 }
 
 void Life::destroy() {
-    const bool injects = left_.erase("pt_destroy") > 0;
+    const std::string step = "pt_destroy";
+    const bool injects = left_.erase(step) > 0;
     if (injects)
-        injection_->arm();
-    run([&]() -> pt_result {
+        injection_.arm(step, number_);
+    run([&] {
         pt_destroy(context_);
         return PT_OK;
     });
     context_ = nullptr;
-    if (!injects)
-        return;
-    attempted_.insert("pt_destroy");
-    if (injection_->disarm("pt_destroy", PT_OK, ""))
-        met_.insert("pt_destroy");
+    if (injects && injection_.disarm(step, PT_OK, ""))
+        met_.insert(step);
 }
 
 void Life::expect_lost() {
@@ -325,51 +304,86 @@ void Life::expect_lost() {
     }
 }
 
-Life::State Life::state() {
-    if (!context_)
-        return {};
-    auto stats = sized<pt_stats>();
-    EXPECT_EQ(pt_get_stats(context_, &stats), PT_OK) << pt_last_error(context_);
-    return {stats.sample_count, stats.rejected_samples};
+uint32_t Life::samples() {
+    return context_ ? stats_of(context_).sample_count : 0;
 }
 
-void Life::expect_image(const std::string &step, uint32_t sample_count) {
-    if (!context_ || sample_count == 0)
+void Life::expect_image(const std::string &step) {
+    const uint32_t sample_count = samples();
+    if (sample_count == 0)
         return;
-    Image image(std::size_t{width} * rows_ * 3);
-    const pt_image target = image_target(image);
-    ASSERT_EQ(pt_readback(context_, &target), PT_OK) << step << ": " << pt_last_error(context_);
-    const Image &whole = expected_.radiance.at(sample_count);
-    EXPECT_TRUE(std::equal(image.begin(), image.end(), whole.begin())) << step << ": another image";
+    const Image image = values_of(context_, std::size_t{width} * rows_);
+    EXPECT_TRUE(std::ranges::equal(image, std::span(expected_.images.at(sample_count)).first(image.size())))
+        << step << ": another image";
 }
 
-ExpectedImages undisturbed_images() {
+Expected undisturbed() {
     const Scene scene;
-    const pt_scene the_scene = scene.scene();
-    const pt_camera the_camera = camera();
     pt_render the_render = render();
-    pt_context *context = nullptr;
-    EXPECT_EQ(pt_create(nullptr, &context), PT_OK) << pt_last_error(nullptr);
-    set_picture(context, the_scene, the_camera, the_render);
-    ExpectedImages images;
-    for (uint32_t count = 1; count <= 18; ++count) {
-        const pt_accumulate_info info = accumulate_info(1);
-        EXPECT_EQ(pt_accumulate(context, &info), PT_OK) << pt_last_error(context);
-        for (const uint32_t quantity : {PT_QUANTITY_RADIANCE, PT_QUANTITY_STANDARD_ERROR}) {
-            Image image(std::size_t{width} * height * 3);
-            const pt_image target = image_target(image, quantity);
-            EXPECT_EQ(pt_readback(context, &target), PT_OK) << pt_last_error(context);
-            (quantity == PT_QUANTITY_RADIANCE ? images.radiance : images.standard_error)[count] = image;
+    pt_context *created = nullptr;
+    EXPECT_EQ(create({.gpu = false, .device_count = 1, .submit_milliseconds = 50}, &created), PT_OK)
+        << pt_last_error(nullptr);
+    const Context owner(created);
+    set_picture(created, scene.scene(), camera(), the_render);
+    Expected expected;
+    for (uint32_t count = 1; count <= film_end; ++count) {
+        accumulate_on(created, 1);
+        expected.images[count] = values_of(created, std::size_t{width} * height);
+    }
+    expected.film = film_of(created);
+    the_render.first_sample = 1;
+    EXPECT_EQ(pt_set_render(created, &the_render), PT_OK) << pt_last_error(created);
+    accumulate_on(created, other_film_end - 1);
+    expected.other_film = film_of(created);
+    the_render.first_sample = 0;
+    the_render.row_count = height / 2;
+    EXPECT_EQ(pt_set_render(created, &the_render), PT_OK) << pt_last_error(created);
+    EXPECT_EQ(accumulate_to_target(created), PT_TARGET_REACHED) << pt_last_error(created);
+    EXPECT_LT(stats_of(created).sample_count, stats_of(created).max_sample_count) << "all tiles have the same";
+    expected.uneven_film = film_of(created);
+    return expected;
+}
+
+void sweep(const Setting &setting, const Expected &expected, const Injection &injection) {
+    keep_a_long_message();
+    Steps wanted = {"pt_get_devices, count",
+                    "pt_get_devices",
+                    "pt_create",
+                    "pt_get_context_device",
+                    "pt_set_scene",
+                    "pt_set_camera",
+                    "pt_set_render",
+                    "pt_prepare",
+                    "pt_accumulate",
+                    "pt_readback, radiance",
+                    "pt_readback, standard error",
+                    "pt_map_image",
+                    "pt_readback, objects",
+                    "pt_readback, coverage",
+                    "pt_get_error_estimate",
+                    "pt_get_accuracy",
+                    "pt_save_film",
+                    "pt_set_scene, again",
+                    "pt_add_film",
+                    "pt_set_camera, again",
+                    "pt_start and pt_poll",
+                    "pt_set_render, smaller",
+                    "pt_accumulate, again",
+                    uneven_step,
+                    "pt_destroy"};
+    for (std::size_t number = 1; !wanted.empty() && !testing::Test::HasFatalFailure(); ++number) {
+        SCOPED_TRACE("place " + std::to_string(number));
+        Steps left = std::exchange(wanted, {});
+        while (!left.empty()) {
+            const long allocations_before = live_allocations();
+            Life(setting, expected, injection, number, left, wanted).live();
+            heal_devices();
+            for (const auto &[maker, count] : live_objects())
+                ADD_FAILURE() << count << " objects of " << maker << " are left";
+            EXPECT_EQ(live_allocations(), allocations_before);
+            forget_objects();
         }
     }
-    images.film = film_of(context);
-    the_render.first_sample = 1;
-    const pt_accumulate_info others = accumulate_info(other_film_end - 1);
-    EXPECT_EQ(pt_set_render(context, &the_render), PT_OK) << pt_last_error(context);
-    EXPECT_EQ(pt_accumulate(context, &others), PT_OK) << pt_last_error(context);
-    images.other_film = film_of(context);
-    pt_destroy(context);
-    return images;
 }
 
 } // namespace faults

@@ -3,6 +3,7 @@
 
 #include <pt/pt.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -21,76 +22,70 @@ struct Setting {
 using Image = std::vector<float>;
 using Film = std::vector<char>;
 
-struct ExpectedImages {
-    std::map<uint32_t, Image> radiance;
-    std::map<uint32_t, Image> standard_error;
+struct Expected {
+    std::map<uint32_t, Image> images; // by number of samples
     Film film;
+    Film uneven_film;
     Film other_film;
 };
 
-ExpectedImages undisturbed_images();
+Expected undisturbed();
 
-class Injection {
-public:
-    virtual ~Injection() = default;
+// Returns the number of the allocation or Vulkan call that fails. Adaptive sampling has thousands, so most are left
+// out.
+std::size_t place_in(const std::string &step, std::size_t number);
 
-    virtual void arm() = 0;
-
-    virtual bool disarm(const std::string &step, pt_result result, const std::string &message) = 0;
+struct Injection {
+    std::function<void(const std::string &step, std::size_t number)> arm;
+    // Returns whether the place was reached.
+    std::function<bool(const std::string &step, pt_result result, const std::string &message)> disarm;
 };
 
 using Steps = std::set<std::string>;
 
+// Puts a fault into each step in `left`, until a device is lost. Moves steps that reach the fault's place to `met`, and
+// removes the others.
 class Life {
 public:
-    Life(const Setting &setting, const ExpectedImages &expected, const Steps &injected);
+    Life(const Setting &setting, const Expected &expected, const Injection &injection, std::size_t number, Steps &left,
+         Steps &met);
     ~Life();
     Life(const Life &) = delete;
     Life &operator=(const Life &) = delete;
 
-    static Steps all_steps();
-
-    void live(Injection &injection);
-
-    const Steps &attempted() const { return attempted_; }
-    const Steps &met() const { return met_; }
-    bool lost() const { return lost_; }
+    void live();
 
 private:
-    struct State {
-        uint32_t sample_count;
-        uint64_t rejected_samples;
-    };
     struct End {};
     using Function = std::function<pt_result()>;
+    using Accumulate = pt_result (*)(pt_context *, const pt_accumulate_info *);
 
     void tell();
-    pt_result run(const Function &function);
     void look(const std::string &step, const Function &function);
-    void call(const std::string &step, const Function &function);
-    void call(const std::string &step, const Function &function, const std::function<void()> &after_failure);
-    using Accumulate = pt_result (*)(pt_context *, const pt_accumulate_info *);
-    void accumulate_to(const std::string &step, uint32_t sample_count, double target_error,
-                       Accumulate accumulate = &pt_accumulate);
-    void readback(const std::string &step, uint32_t quantity);
-    void map_image(const std::string &step);
-    void read_of_scene(const std::string &step, uint32_t quantity);
-    void save_film(const std::string &step);
-    void add_film(const std::string &step);
+    void call(const std::string &step, const Function &function, const std::function<void()> &after_failure = nullptr);
+    void accumulate_to(const std::string &step, uint32_t goal, Accumulate accumulate = &pt_accumulate);
+    void accumulate_unevenly();
+    void read(const std::string &step, uint32_t quantity);
+    void map_image();
+    void save_film();
     void destroy();
     void expect_lost();
-    State state();
-    void expect_image(const std::string &step, uint32_t sample_count);
+    void expect_image(const std::string &step);
+    uint32_t samples();
 
     const Setting setting_;
-    const ExpectedImages &expected_;
-    Injection *injection_ = nullptr;
-    Steps left_;
-    Steps attempted_;
-    Steps met_;
+    const Expected &expected_;
+    const Injection &injection_;
+    const std::size_t number_;
+    Steps &left_;
+    Steps &met_;
     bool lost_ = false;
     pt_context *context_ = nullptr;
     uint32_t rows_ = 0;
 };
+
+// Makes one round for each place. Each round has the steps that reached the place of the previous round. After a round,
+// no Vulkan objects or memory may remain.
+void sweep(const Setting &setting, const Expected &expected, const Injection &injection);
 
 } // namespace faults

@@ -1,4 +1,3 @@
-#include "tests/faults/clock.h"
 #include "tests/faults/vulkan_calls.h"
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"

@@ -1,4 +1,4 @@
-#include "tests/faults/sweep.h"
+#include "tests/faults/life.h"
 #include "tests/faults/vulkan_calls.h"
 
 #include <gtest/gtest.h>
@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace {
@@ -56,60 +55,48 @@ struct Place {
     CallFault fault;
 };
 
-class FailingCall : public Injection {
-public:
-    FailingCall(std::size_t number, std::size_t error_index, std::vector<Place> &places) :
-        number_(number),
-        error_index_(error_index),
-        places_(places) {}
-
-    void arm() override { fail_call(number_, error_index_); }
-
-    bool disarm(const std::string &step, pt_result result, const std::string &message) override {
+// Every call fails once with its function's first error. Other errors are injected only into the first call of each
+// function and into all submissions.
+void fail_every_call(const Setting &setting) {
+    const Expected expected = undisturbed();
+    std::vector<Place> places;
+    std::size_t error = 0;
+    std::size_t armed = 0;
+    const auto arm = [&](const std::string &step, std::size_t number) {
+        armed = number;
+        fail_call(place_in(step, number), error);
+    };
+    const auto disarm = [&](const std::string &step, pt_result result, const std::string &message) {
         const CallFault fault = call_fault();
         fail_call(0, 0);
         if (fault.function.empty())
             return false;
-        places_.push_back({step, number_, fault});
+        places.push_back({step, armed, fault});
         // A CPU has one type of memory. On other devices, memory of another type may serve.
         const bool another_memory =
             fault.function == "vkAllocateMemory" && fault.result == VK_ERROR_OUT_OF_DEVICE_MEMORY && result == PT_OK;
         if (step != "pt_destroy" && !another_memory) {
             EXPECT_EQ(pt_result_name(result), std::string(pt_result_name(expected_result(fault))))
-                << step << ", place " << number_ << ", " << fault.function << ": " << message;
+                << step << ", place " << armed << ", " << fault.function << ": " << message;
             EXPECT_TRUE(result >= 0 || !message.empty());
         }
         return true;
-    }
-
-private:
-    std::size_t number_;
-    std::size_t error_index_;
-    std::vector<Place> &places_;
-};
-
-// Every call fails once with its function's first error. Other errors are injected only into the first call of each
-// function and into all submissions.
-void fail_every_call(const Setting &setting) {
-    const ExpectedImages expected = undisturbed_images();
-    std::vector<Place> places;
-    sweep(setting, expected, Life::all_steps(),
-          [&](std::size_t number) { return std::make_unique<FailingCall>(number, 0, places); });
+    };
+    sweep(setting, expected, {arm, disarm});
     std::set<std::string> seen;
-    const std::vector<Place> found = std::exchange(places, {});
+    const std::vector<Place> found = places;
     EXPECT_GT(found.size(), 100U);
     for (const Place &place : found) {
         if (!seen.insert(place.fault.function).second && place.fault.function != "vkQueueSubmit")
             continue;
-        for (std::size_t error = 1; error < place.fault.error_count; ++error) {
-            const std::size_t met_before = places.size();
-            FailingCall injection(place.number, error, places);
-            Life life(setting, expected, {place.step});
-            life.live(injection);
+        for (error = 1; error < place.fault.error_count; ++error) {
+            Steps left{place.step};
+            Steps met;
+            Life(setting, expected, {arm, disarm}, place.number, left, met).live();
             heal_devices();
             // A hung device keeps its objects. The number of polls varies, so this run may end before the failing call.
-            const bool hangs = places.size() > met_before && places.back().fault.function == "vkQueueSubmit" &&
-                               places.back().fault.result == VK_TIMEOUT;
+            const CallFault &fault = places.back().fault;
+            const bool hangs = !met.empty() && fault.function == "vkQueueSubmit" && fault.result == VK_TIMEOUT;
             EXPECT_EQ(live_objects().contains("vkCreateDevice"), hangs);
             for (const auto &[maker, count] : live_objects())
                 EXPECT_TRUE(hangs) << place.step << ", " << place.fault.function << ": " << count << " of " << maker;

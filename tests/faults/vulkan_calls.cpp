@@ -1,7 +1,6 @@
 #include "tests/faults/vulkan_calls.h"
 
 #include "tests/faults/allocations.h"
-#include "tests/faults/clock.h"
 #include "tests/faults/kept_objects.h"
 #include "tests/faults/vulkan_functions.h"
 
@@ -19,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+extern "C" std::chrono::steady_clock::time_point __wrap__ZNSt6chrono3_V212steady_clock3nowEv();
 extern "C" PFN_vkVoidFunction __real_vkGetInstanceProcAddr(VkInstance instance, const char *name);
 extern "C" PFN_vkVoidFunction __wrap_vkGetInstanceProcAddr(VkInstance instance, const char *name);
 
@@ -50,6 +50,7 @@ constexpr Effect effects[] = {
 #define FAULTS_EFFECT(id, effect, ...) Effect::effect,
     FAULTS_VULKAN_FUNCTIONS(FAULTS_EFFECT)};
 
+std::chrono::steady_clock::time_point present;
 std::size_t call_count = 0;
 std::size_t failing_number = 0;
 std::size_t failing_error = 0;
@@ -59,7 +60,7 @@ std::uint64_t largest_heap = UINT64_MAX;
 std::set<const void *> lost; // devices and queues
 std::set<VkFence> hanging;
 std::map<VkQueue, VkDevice> devices_of_queues;
-std::multiset<std::pair<const void *, Call>> live; // the handle and the function that made the object
+std::multimap<const void *, Call> live; // the function that made the object
 PFN_vkDeviceWaitIdle wait_idle = nullptr;
 PFN_vkGetDeviceProcAddr get_device_function = nullptr;
 
@@ -107,41 +108,24 @@ std::optional<VkResult> result_by_state(const std::tuple<A...> &arguments) {
     return std::nullopt;
 }
 
-void note(bool made, Call maker, const void *handle) {
-    if (made) {
-        live.insert({handle, maker});
-    } else if (handle) {
-        const auto object = live.find({handle, maker});
-        if (object == live.end()) {
-            std::fprintf(stderr, "an object of %s is destroyed twice\n", function(maker).name);
-            std::abort();
-        }
-        live.erase(object);
+void note_end(const void *handle) {
+    if (!handle)
+        return;
+    const auto object = live.find(handle);
+    if (object == live.end()) {
+        std::fputs("an object is destroyed twice\n", stderr);
+        std::abort();
     }
-}
-
-Call maker_of(Call destroyer) {
-    static const std::unordered_map<std::string_view, Call> makers = [] {
-        std::unordered_map<std::string_view, Call> result;
-#define FAULTS_MAKER(id, ...) result["vk" #id] = Call::id;
-        FAULTS_VULKAN_FUNCTIONS(FAULTS_MAKER)
-        return result;
-    }();
-    const std::string name = function(destroyer).name;
-    if (destroyer == Call::FreeMemory)
-        return Call::AllocateMemory;
-    if (destroyer == Call::DestroyPipeline)
-        return Call::CreateComputePipelines;
-    return makers.at("vkCreate" + name.substr(std::strlen("vkDestroy")));
+    live.erase(object);
 }
 
 template <Call call, typename... A>
 void note_effect(const std::tuple<A...> &arguments) {
     constexpr Effect effect = effects[static_cast<std::size_t>(call)];
     if constexpr (effect == Effect::Creates)
-        note(true, call, *std::get<sizeof...(A) - 1>(arguments));
+        live.emplace(*std::get<sizeof...(A) - 1>(arguments), call);
     if constexpr (effect == Effect::Destroys)
-        note(false, maker_of(call), std::get<sizeof...(A) - 2>(arguments));
+        note_end(std::get<sizeof...(A) - 2>(arguments));
     if constexpr (call == Call::WaitForFences)
         pass_time(submission_time);
     if constexpr (call == Call::GetFenceStatus)
@@ -187,7 +171,7 @@ struct Hook<call, Result(VKAPI_PTR *)(A...)> {
     static inline Result(VKAPI_PTR *real)(A...) = nullptr;
 
     static VKAPI_ATTR Result VKAPI_CALL run(A... values) {
-        const OutOfLibrary out_of_library;
+        const InLibrary out_of_library(false);
         const std::tuple<A...> arguments(values...);
         if constexpr (std::is_same_v<Result, VkResult>) {
             const std::optional<VkResult> planned = result_by_plan(call);
@@ -258,7 +242,7 @@ PFN_vkVoidFunction hooked(const char *name, PFN_vkVoidFunction real) {
 }
 
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL device_function(VkDevice device, const char *name) {
-    const OutOfLibrary out_of_library;
+    const InLibrary out_of_library(false);
     if (std::strcmp(name, "vkGetDeviceProcAddr") == 0)
         return reinterpret_cast<PFN_vkVoidFunction>(&device_function);
     const PFN_vkVoidFunction real = get_device_function(device, name);
@@ -285,6 +269,10 @@ void heal_devices() {
     hanging.clear();
 }
 
+void pass_time(std::chrono::nanoseconds duration) {
+    present += duration;
+}
+
 void pose_as_gpu(bool pose) {
     posing = pose;
 }
@@ -307,9 +295,13 @@ void forget_objects() {
 
 } // namespace faults
 
+std::chrono::steady_clock::time_point __wrap__ZNSt6chrono3_V212steady_clock3nowEv() {
+    return faults::present;
+}
+
 PFN_vkVoidFunction __wrap_vkGetInstanceProcAddr(VkInstance instance, const char *name) {
     using namespace faults;
-    const OutOfLibrary out_of_library;
+    const InLibrary out_of_library(false);
     const PFN_vkVoidFunction real = __real_vkGetInstanceProcAddr(instance, name);
     if (std::strcmp(name, "vkGetInstanceProcAddr") == 0)
         return reinterpret_cast<PFN_vkVoidFunction>(&__wrap_vkGetInstanceProcAddr);

@@ -1,8 +1,10 @@
-// Makes a chosen Vulkan call fail, and counts live objects. The linker option --wrap replaces vkGetInstanceProcAddr.
+// Makes a chosen Vulkan call fail, and counts live objects. The linker option --wrap replaces vkGetInstanceProcAddr and
+// the library's clock, which advances only on request. Slices are then reproducible, and hung devices take no time.
 #pragma once
 
 #include <vulkan/vulkan_core.h>
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -24,6 +26,8 @@ void fail_call(std::size_t number, std::size_t error_index);
 CallFault call_fault();
 
 void heal_devices();
+
+void pass_time(std::chrono::nanoseconds duration);
 
 // Lets the CPU pose as a discrete GPU, with staging buffers, two submissions at a time, and a time limit.
 void pose_as_gpu(bool pose);
