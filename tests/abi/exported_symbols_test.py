@@ -1,6 +1,7 @@
 """Checks libpt's exported functions, the types in its headers, and its soname: exported_symbols_test.py LIBRARY ARCHIVE
 HEADERS LIST C_COMPILER. HEADERS is a folder."""
 
+import ctypes
 import pathlib
 import re
 import subprocess
@@ -43,6 +44,13 @@ def complaints(library, archive, headers, listed, soname=SONAME):
     return found
 
 
+def unnamed_results(library, header):
+    name_of = ctypes.CDLL(library).pt_result_name
+    name_of.restype = ctypes.c_char_p
+    results = re.findall(r"(PT_\w+) = (-?\d+)", re.search(r"enum \{([^}]*PT_OK = .*?)\};", header.read_text(), re.DOTALL)[1])
+    return [f"pt_result_name({number}) is not {name}" for name, number in results if name_of(int(number)).decode() != name]
+
+
 def build(folder, compiler, source, soname):
     (folder / "f.c").write_text(source)
     (folder / "f.h").write_text(re.sub(r"^(.*) \{.*", r"PT_API \1;", source, flags=re.MULTILINE))
@@ -81,6 +89,7 @@ def main():
     headers = [path for path in pathlib.Path(folder).glob("*.h") if (path.name == SCENE_HEADER) == is_scene]
     found = complaints(library, archive, headers, set(pathlib.Path(listed).read_text().splitlines()),
                        SCENE_SONAME if is_scene else SONAME)
+    found += [] if is_scene else unnamed_results(library, pathlib.Path(folder, "pt.h"))
     if found:
         sys.exit("\n".join(found))
 

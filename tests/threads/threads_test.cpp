@@ -73,17 +73,6 @@ TEST(ThreadsTest, ContextsInThreadsGiveTheBitsOfContextsOneByOne) {
     EXPECT_NE(together[0], together[1]);
 }
 
-TEST(ThreadsTest, AnotherThreadStopsACall) {
-    Progress progress;
-    pt_result result = PT_OK;
-    std::thread renders([&] { result = live(0, UINT32_MAX, progress); });
-    while (progress.calls == 0)
-        std::this_thread::yield();
-    progress.stop = true;
-    renders.join();
-    EXPECT_EQ(result, PT_CANCELLED);
-}
-
 // This thread cancels while another one polls or waits. A cancellation may also come too early or too late.
 TEST(ThreadsTest, AnyThreadCancels) {
     pt_context *const context = ready_context(0);
