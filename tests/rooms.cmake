@@ -4,9 +4,8 @@
 # pt_host_tests, and with one, in pt_device_tests: two programs, because each links the library.
 pt_add_tests(
   host
-  api/guard_test.cpp
-  api/prepared_scene_test.cpp
   api/render_settings_test.cpp
+  api/scene_digest_test.cpp
   film/adaptive_rule_test.cpp
   film/comparison_test.cpp
   film/display_test.cpp
@@ -30,7 +29,9 @@ pt_add_tests(
   geometry/sphere_array_rules_test.cpp
   geometry/sphere_array_test.cpp
   geometry/sphere_order_test.cpp
+  geometry/sphere_source_test.cpp
   geometry/sphere_tree_test.cpp
+  geometry/tree_cuts_test.cpp
   geometry/twins_test.cpp
   kernel/gpu_layout_test.cpp
   kernel/own_kernel_clock_test.cpp
@@ -63,13 +64,11 @@ set_tests_properties(host PROPERTIES LABELS quick)
 
 pt_add_tests(
   device
-  api/accuracy_test.cpp
   api/arguments_test.cpp
   api/context_test.cpp
   api/errors_test.cpp
   api/in_use_test.cpp
   api/kept_kernels_test.cpp
-  api/log_test.cpp
   api/polling_test.cpp
   api/set_scene_test.cpp
   api/struct_size_test.cpp
@@ -88,10 +87,8 @@ pt_add_tests(
   kernel/render_device_test.cpp
   kernel/trace_pipelines_test.cpp
   vulkan/borrowed_device_test.cpp
-  vulkan/buffer_test.cpp
-  vulkan/instance_test.cpp
+  vulkan/device_test.cpp
   vulkan/own_vulkan_test.cpp
-  vulkan/submission_test.cpp
 )
 set(kernels film_sums recurrence)
 # What the kernel computes. Not with sanitizers: these spend their minutes in the kernel and the driver, not in this code.
@@ -108,13 +105,14 @@ if(NOT PT_SANITIZE)
             accuracy/phong_test.cpp
             accuracy/sampling_test.cpp
             accuracy/vertex_test.cpp
-            api/rounding_test.cpp
             film/unknown_error_test.cpp
             geometry/capsule_test.cpp
             geometry/first_hit_random_test.cpp
             geometry/hidden_from_camera_test.cpp
             geometry/intersection_test.cpp
-            geometry/motion_and_lens_test.cpp
+            geometry/lens_test.cpp
+            geometry/motion_test.cpp
+            geometry/tree_path_test.cpp
             geometry/tree_test.cpp
             kernel/scene_source_test.cpp
             light/lamp_choice_test.cpp

@@ -34,14 +34,6 @@ inline pt_render valid_render() {
     return render_of(width, height, 1);
 }
 
-inline pt_accumulate_info samples(uint32_t count) {
-    return accumulate_info(count);
-}
-
-inline pt_image tight_image(std::vector<float> &pixels) {
-    return image_target(pixels);
-}
-
 inline void set_all(pt_context *context) {
     const pt_scene scene = valid_scene();
     const pt_camera camera = valid_camera();
@@ -60,15 +52,9 @@ protected:
         EXPECT_EQ(message(), expected_message);
     }
 
-    std::vector<float> image() {
-        std::vector<float> pixels(width * height * 3, -1.0F);
-        readback(pixels);
-        return pixels;
-    }
-
     void expect_image(uint32_t sample_count) {
         EXPECT_EQ(stats().sample_count, sample_count);
-        const std::vector<float> pixels = image();
+        const std::vector<float> pixels = values_of(context(), width * height);
         for (std::size_t i = 0; i < pixels.size(); ++i)
             ASSERT_EQ(pixels[i], radiance[i % 3]) << "value " << i;
     }

@@ -27,9 +27,9 @@ inline Outcomes outcomes_of_every_call(pt_context *context) {
     const pt_scene scene = valid_scene();
     const pt_camera camera = valid_camera();
     const pt_render render = valid_render();
-    const pt_accumulate_info one = samples(1);
+    const pt_accumulate_info one = accumulate_info(1);
     std::vector<float> pixels(width * height * 3);
-    const pt_image image = tight_image(pixels);
+    const pt_image image = image_target(pixels);
     auto mapped = sized<pt_image>();
     void *data = nullptr;
     auto buffer_image = sized<pt_buffer_image>();

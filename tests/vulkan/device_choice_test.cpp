@@ -131,9 +131,8 @@ const std::array families = {
 TEST(CallerVulkan, AQueueFamilyMustCompute) {
     EXPECT_NO_THROW(pt::vulkan::require_compute(families, 0));
     EXPECT_NO_THROW(pt::vulkan::require_compute(families, 2));
-    const pt::Error error = error_of([] { pt::vulkan::require_compute(families, 1); });
-    EXPECT_EQ(error.code(), PT_ERROR_INVALID_ARGUMENT);
-    EXPECT_STREQ(error.what(), "vulkan.queue_family = 1: must have VK_QUEUE_COMPUTE_BIT");
+    EXPECT_STREQ(error_of([] { pt::vulkan::require_compute(families, 1); }).what(),
+                 "vulkan.queue_family = 1: must have VK_QUEUE_COMPUTE_BIT");
 }
 
 TEST(CallerVulkan, APhysicalDeviceMustBeSuitable) {
@@ -164,38 +163,27 @@ constexpr std::array<vk::MemoryPropertyFlags, 2> seen_best_fast = {Property::eDe
                                                                    Property::eHostVisible};
 constexpr std::uint32_t all = 7;
 
-TEST(MemoryType, ThoseWithTheFirstWantedPropertiesComeFirst) {
+TEST(MemoryType, AllowedOnesWithTheFirstWantedPropertiesComeFirst) {
     EXPECT_EQ(pt::vulkan::memory_types(gpu_memory(), all, fast_then_any), (Types{0, 2, 1}));
     EXPECT_EQ(pt::vulkan::memory_types(gpu_memory(), all, seen_best_fast), (Types{2, 1}));
-}
-
-TEST(MemoryType, OnlyAllowedOnesAreTaken) {
     EXPECT_EQ(pt::vulkan::memory_types(gpu_memory(), 3, seen_best_fast), Types{1});
     EXPECT_EQ(error_of([] { pt::vulkan::memory_types(gpu_memory(), 1, seen_best_fast); }).code(), PT_ERROR_UNSUPPORTED);
 }
 
-TEST(MemoryType, AFullHeapLeavesTheNextType) {
-    const Types types = {0, 2, 1};
+TEST(MemoryType, AFullHeapAloneLeavesTheNextType) {
     Types tried;
     const auto only_the_hosts = [&](std::uint32_t type) {
         tried.push_back(type);
-        if (type != 1)
+        if (type == 2)
+            throw vk::DeviceLostError("lost");
+        if (type == 0)
             throw vk::OutOfDeviceMemoryError("full");
         return type;
     };
-    EXPECT_EQ(pt::vulkan::allocate_where_there_is_room(types, only_the_hosts), 1U);
-    EXPECT_EQ(tried, types);
-    EXPECT_THROW(pt::vulkan::allocate_where_there_is_room(Types{0, 2}, only_the_hosts), vk::OutOfDeviceMemoryError);
-}
-
-TEST(MemoryType, OtherErrorsAreNotTriedAgain) {
-    int calls = 0;
-    const auto lost = [&](std::uint32_t) -> int {
-        ++calls;
-        throw vk::DeviceLostError("lost");
-    };
-    EXPECT_THROW(pt::vulkan::allocate_where_there_is_room(Types{0, 1}, lost), vk::DeviceLostError);
-    EXPECT_EQ(calls, 1);
+    EXPECT_EQ(pt::vulkan::allocate_where_there_is_room(Types{0, 1, 2}, only_the_hosts), 1U);
+    EXPECT_EQ(tried, (Types{0, 1}));
+    EXPECT_THROW(pt::vulkan::allocate_where_there_is_room(Types{0}, only_the_hosts), vk::OutOfDeviceMemoryError);
+    EXPECT_THROW(pt::vulkan::allocate_where_there_is_room(Types{2, 1}, only_the_hosts), vk::DeviceLostError);
 }
 
 } // namespace

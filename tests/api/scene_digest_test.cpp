@@ -1,11 +1,9 @@
-#include "lib/view/prepared_scene.h"
-
 #include "lib/scene/scene.h"
 
 #include <gtest/gtest.h>
 
 #include <functional>
-#include <utility>
+#include <string>
 
 namespace {
 
@@ -13,17 +11,6 @@ pt::Scene small_scene() {
     return {{{glm::vec3(0.5F), glm::vec3(0.25F), glm::vec3(0), 40.0F}, {glm::vec3(0), glm::vec3(0), glm::vec3(1), 0}},
             {{{0, 1, -5}, 1, {0, 0.5, 0}, 0}, {{0, 9, -5}, 2, {0, 0, 0}, 1}},
             {{{0, 1, 0}, 0.25, 0}}};
-}
-
-TEST(PreparedScene, ComputesTheDigestOnceWhereItIsAskedFor) {
-    pt::PreparedScene prepared(small_scene());
-    prepared.scene.spheres[0].radius = 2.0;
-    const std::string digest = pt::digest_of(prepared.scene);
-    ASSERT_NE(digest, pt::digest_of(small_scene()));
-    EXPECT_EQ(prepared.digest(), digest);
-    prepared.scene = small_scene();
-    EXPECT_EQ(prepared.digest(), digest);
-    EXPECT_EQ(pt::PreparedScene(std::move(prepared)).digest(), digest);
 }
 
 TEST(SceneDigest, DependsOnEveryNumber) {
