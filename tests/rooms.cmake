@@ -29,9 +29,7 @@ pt_add_tests(
   geometry/sphere_array_rules_test.cpp
   geometry/sphere_array_test.cpp
   geometry/sphere_order_test.cpp
-  geometry/sphere_source_test.cpp
   geometry/sphere_tree_test.cpp
-  geometry/tree_cuts_test.cpp
   geometry/twins_test.cpp
   kernel/gpu_layout_test.cpp
   kernel/own_kernel_clock_test.cpp
@@ -110,9 +108,7 @@ if(NOT PT_SANITIZE)
             geometry/first_hit_random_test.cpp
             geometry/hidden_from_camera_test.cpp
             geometry/intersection_test.cpp
-            geometry/lens_test.cpp
-            geometry/motion_test.cpp
-            geometry/tree_path_test.cpp
+            geometry/motion_and_lens_test.cpp
             geometry/tree_test.cpp
             kernel/scene_source_test.cpp
             light/lamp_choice_test.cpp

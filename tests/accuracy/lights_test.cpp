@@ -115,31 +115,24 @@ Real distance_bound(const View &view, const Lamp &lamp, Real h) {
            view.distance * (10 * half_ulp + share * h);
 }
 
-struct AccuracyLights : testing::Test {
-    std::vector<Lamp> lamps_ = lamps();
-    std::vector<Item> items_ = items(lamps_);
-    std::vector<Result> results_;
-
-    void SetUp() override {
-        std::vector<std::uint32_t> constants(pt::gpu::CONSTANT_COUNT);
-        constants[pt::gpu::ID_SPHERE_COUNT] = lamp_count;
-        constants[pt::gpu::ID_LAMP_COUNT] = lamp_count;
-        constants[pt::gpu::ID_SCENE_SOURCE] = pt::gpu::SCENE_IN_UNIFORM;
-        std::vector<glm::vec4> scene;
-        for (const Lamp &lamp : lamps_)
-            scene.emplace_back(lamp.center, lamp.radius);
-        for (const Lamp &lamp : lamps_)
-            scene.emplace_back(lamp.radiance);
-        Probe probe(lamp_items_spirv(), sizeof(ItemRange), constants);
-        probe.set_scene(scene);
-        results_ = evaluate<Result>(probe, items_);
-    }
-};
-
 // The stated radiance sin^2 min(1, highest cosine) must not be 0 if the bound of the irradiance is not 0. The dot
 // product and the sum add errors of 4 u, the factor 1 / d adds 7.5 u, and the length of the normal adds its deviation
 // from 1.
-TEST_F(AccuracyLights, OfLampSamples) {
+TEST(AccuracyLights, OfLampSamples) {
+    const std::vector<Lamp> all_lamps = lamps();
+    const std::vector<Item> all = items(all_lamps);
+    std::vector<std::uint32_t> constants(pt::gpu::CONSTANT_COUNT);
+    constants[pt::gpu::ID_SPHERE_COUNT] = lamp_count;
+    constants[pt::gpu::ID_LAMP_COUNT] = lamp_count;
+    constants[pt::gpu::ID_SCENE_SOURCE] = pt::gpu::SCENE_IN_UNIFORM;
+    std::vector<glm::vec4> scene;
+    for (const Lamp &lamp : all_lamps)
+        scene.emplace_back(lamp.center, lamp.radius);
+    for (const Lamp &lamp : all_lamps)
+        scene.emplace_back(lamp.radiance);
+    Probe probe(lamp_items_spirv(), sizeof(ItemRange), constants);
+    probe.set_scene(scene);
+    const std::vector<Result> results = evaluate<Result>(probe, all);
     Comparison height("one_minus_cos", "of itself");
     Comparison density("cone_density", "of itself");
     Comparison direction("sample_lamp direction", "length");
@@ -147,10 +140,10 @@ TEST_F(AccuracyLights, OfLampSamples) {
     Comparison weight("lamp weight", "of radiance sin^2");
     std::size_t lost = 0;
     std::size_t dark = 0;
-    for (std::size_t i = 0; i < items_.size(); ++i) {
-        const Item &item = items_[i];
-        const Lamp &lamp = lamps_[item.lamp];
-        const Result &result = results_[i];
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const Item &item = all[i];
+        const Lamp &lamp = all_lamps[item.lamp];
+        const Result &result = results[i];
         const View view(lamp, item);
         if (view.squared_sine > 1 - 12 * half_ulp)
             continue; // The vertex is on the lamp.

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pt
-from pt.figures import _bonds, _neighbours
+from pt.figures import _neighbours
 from pt.figures._bonds import bonds_of, whole
 from pt.figures._cell import Cell
 from pt.figures._drawn import prepare
@@ -17,67 +17,11 @@ from pt.figures._series import frames
 ANGLES = np.arange(6)[:, None] * np.pi / 3
 RING = np.hstack([np.cos(ANGLES), np.sin(ANGLES), 0 * ANGLES])
 BENZENE = Particles(np.vstack([1.397 * RING, (1.397 + 1.084) * RING]), elements=np.repeat(np.uint8([6, 1]), 6))
-FACES = np.array([[0, 0, 0], [0, 0.5, 0.5], [0.5, 0, 0.5], [0.5, 0.5, 0]])
 PAIR = Particles(np.array([[-1.0, 0, 0], [1, 0, 0]]), elements=np.uint8([6, 6]))
-
-
-def fullerene():
-    """C60, a truncated icosahedron with edges of 1.43 angstroms. The points are the even permutations of three triples, with all signs."""
-    golden = (1 + 5**0.5) / 2
-    triples = ((0, 1, 3 * golden), (1, 2 + golden, 2 * golden), (2, 1 + 2 * golden, golden))
-    points = {tuple(np.roll(np.multiply(triple, signs), turn).round(9) + 0.0) for triple in triples
-              for signs in itertools.product((1, -1), repeat=3) for turn in range(3)}
-    return Particles(np.array(sorted(points)) * 0.5 * 1.43, elements=np.full(len(points), 6, np.uint8))
-
-
-def crystal(basis, numbers, length, times):
-    steps = np.array(list(itertools.product(range(times), repeat=3)))
-    positions = (steps[:, None] + basis).reshape(-1, 3) * length
-    return Particles(positions, elements=np.tile(np.uint8(numbers), len(steps)), cell=Cell.of([times * length] * 3))
 
 
 def found_in(particles, bonds=True, wall_bonds="halves"):
     return bonds_of(particles, Options(bonds=bonds, wall_bonds=wall_bonds), np.ones(1), [])
-
-
-def count(particles, bonds=True):
-    return len(found_in(particles, bonds).atoms) / 2
-
-
-class Known(unittest.TestCase):
-    def test_molecules(self):
-        self.assertEqual((count(BENZENE), count(fullerene())), (12, 90))
-        np.testing.assert_array_equal(np.bincount(found_in(fullerene()).atoms), np.full(60, 3))
-
-    def test_the_limit_is_the_sum_of_the_radii_and_the_tolerance(self):
-        """The radii are 0.76 for C and 0.31 for H (Cordero 2008). The tolerance is 0.45, so C-C bonds end at 2 * 0.76 + 0.45 = 1.97
-        angstroms and C-H bonds at 1.52. These are 1.410 and 1.402 times the lengths in benzene."""
-        for factor, expected in ((1.40, 12), (1.405, 6), (1.415, 0)):
-            scaled = Particles(BENZENE.positions * factor, elements=BENZENE.elements)
-            self.assertEqual(count(scaled), expected, factor)
-        for distance, expected in ((0.39, 0), (0.41, 1)):  # Closer atoms are alternative positions of one atom.
-            self.assertEqual(count(Particles(PAIR.positions * distance / 2, elements=PAIR.elements)), expected)
-        with unittest.mock.patch.object(_bonds, "TOLERANCE", 0.0):
-            self.assertEqual(count(BENZENE), 6)
-        with unittest.mock.patch.object(_bonds, "TOLERANCE", 1.1):
-            self.assertGreater(count(BENZENE), 12)
-
-    def test_crystals(self):
-        diamond = np.vstack([FACES, FACES + 0.25]), [6] * 8, 3.567
-        salt = np.vstack([FACES, FACES + (0.5, 0, 0)]), [11] * 4 + [17] * 4, 5.64
-        for (basis, numbers, length), times, each in ((diamond, 1, 4), (diamond, 2, 4), (salt, 1, 6), (salt, 2, 6)):
-            particles = crystal(basis, numbers, length, times)
-            turns = np.random.default_rng(1).integers(-2, 3, particles.positions.shape)
-            left = Particles(particles.positions + turns * length * times, elements=particles.elements, cell=particles.cell)
-            for some in (particles, left):
-                found = found_in(some)
-                np.testing.assert_array_equal(np.bincount(found.atoms), np.full(len(numbers) * times**3, each))
-            inside = found_in(particles, wall_bonds="none")
-            ways = particles.positions[inside.others] - particles.positions[inside.atoms]
-            np.testing.assert_allclose(inside.ways, 0.5 * ways, atol=1e-12)
-            self.assertLess(len(inside.atoms), len(numbers) * times**3 * each)
-        open_cell = Particles(particles.positions, elements=particles.elements, cell=Cell.of([11.28] * 3, periodic=False))
-        self.assertEqual(count(open_cell), len(inside.atoms) / 2)
 
 
 def residues(*atoms, **more):
@@ -88,31 +32,31 @@ def residues(*atoms, **more):
     return Particles(positions, columns, np.array(elements, np.uint8), **more)
 
 
-class Residues(unittest.TestCase):
+class Automatic(unittest.TestCase):
     def pairs(self, particles, notes=None):
         found = bonds_of(particles, Options(bonds=True), np.ones(1), [] if notes is None else notes)
         half = len(found.atoms) // 2
         return sorted(sorted(pair) for pair in zip(found.atoms[:half].tolist(), found.others[:half].tolist()))
 
-    def test_names_within_residues(self):
+    def test_the_limit_is_the_sum_of_the_radii_and_the_tolerance(self):
+        """The radii are 0.76 for C and 0.31 for H (Cordero 2008). The tolerance is 0.45, so C-C bonds end at 2 * 0.76 + 0.45 = 1.97
+        angstroms and C-H bonds at 1.52. These are 1.410 and 1.402 times the lengths in benzene."""
+        # Atoms closer than 0.4 angstroms are alternative positions of one atom.
+        for particles, factor, expected in ((BENZENE, 1.40, 12), (BENZENE, 1.405, 6), (BENZENE, 1.415, 0), (PAIR, 0.195, 0), (PAIR, 0.205, 1)):
+            scaled = Particles(particles.positions * factor, elements=particles.elements)
+            self.assertEqual(len(self.pairs(scaled)), expected, factor)
+
+    def test_names_of_atoms_and_residues(self):
         near = residues(("ALA", 1, "N", 7, 0), ("ALA", 1, "CA", 6, 1.45), ("ALA", 1, "O", 8, 2.7), ("ALA", 1, "XYZ", 6, 4.0))
-        self.assertEqual(self.pairs(near), [[0, 1], [2, 3]])
-        self.assertEqual(self.pairs(Particles(near.positions, elements=near.elements)), [[0, 1], [1, 2], [2, 3]])
-
-    def test_hydrogens_have_one_bond(self):
-        water = residues(("SOL", 1, "HW1", 1, 0), ("SOL", 1, "OW", 8, 0.9), ("SOL", 1, "HW2", 1, 1.7), ("SOL", 2, "OW", 8, 2.9),
-                         ("SOL", 2, "HW1", 1, 3.85))
-        self.assertEqual(self.pairs(water), [[0, 1], [1, 2], [3, 4]])
+        hydrogens = residues(("SOL", 1, "HW1", 1, 0), ("SOL", 1, "OW", 8, 0.9), ("SOL", 1, "HW2", 1, 1.7), ("SOL", 2, "OW", 8, 2.9),
+                             ("SOL", 2, "HW1", 1, 3.85))
         between = residues(("ALA", 1, "CB", 6, 0), ("ALA", 1, "HB1", 1, 1.0), ("ALA", 1, "C", 6, 2.1))
-        self.assertEqual(self.pairs(between), [[0, 1]])
-
-    def test_bonds_between_residues(self):
         chain = residues(("GLY", 1, "C", 6, 0), ("GLY", 2, "N", 7, 1.3), ("CYS", 3, "SG", 16, 2.5), ("CYS", 4, "SG", 16, 4.5),
                          ("LIG", 5, "C1", 6, 6.2))
-        self.assertEqual(self.pairs(chain), [[0, 1], [2, 3], [3, 4]])
-
-    def test_ions_have_no_bonds(self):
-        self.assertEqual(self.pairs(residues(("K", 1, "K", 19, 0), ("SOL", 2, "OW", 8, 2.7), ("LIG", 3, "C1", 6, -2.8))), [])
+        ions = residues(("K", 1, "K", 19, 0), ("SOL", 2, "OW", 8, 2.7), ("LIG", 3, "C1", 6, -2.8))
+        for particles, expected in ((near, [[0, 1], [2, 3]]), (Particles(near.positions, elements=near.elements), [[0, 1], [1, 2], [2, 3]]),
+                                    (hydrogens, [[0, 1], [1, 2], [3, 4]]), (between, [[0, 1]]), (chain, [[0, 1], [2, 3], [3, 4]]), (ions, [])):
+            self.assertEqual(self.pairs(particles), expected)
 
     def test_bonds_of_the_data_come_first(self):
         stretched = residues(("LIG", 1, "C1", 6, 0), ("LIG", 1, "C2", 6, 5), ("LIG", 1, "C3", 6, 6.5), ("LIG", 1, "C4", 6, 8),
@@ -125,11 +69,12 @@ class Residues(unittest.TestCase):
         self.assertEqual(self.pairs(stretched.select(np.array([True, False, True, True]))), [[0, 1], [1, 2]])
 
 
-class BruteForce(unittest.TestCase):
+class Neighbours(unittest.TestCase):
     def test_all_pairs_in_an_oblique_cell(self):
         """Compares with the distances to all periodic images. Cells are thinner than the cutoff, particles lie far
         outside, and one edge may not be periodic."""
         random = np.random.default_rng(7)
+        self.enterContext(unittest.mock.patch.object(_neighbours, "COMPARED_AT_ONCE", 7))
         for vectors, periodic, cutoff in (([[4, 0, 0], [1, 5, 0], [-1, 0.5, 6]], True, 1.3),
                                           ([[2, 0, 0], [1.2, 2, 0], [0.3, -0.8, 2]], True, 2.9),
                                           ([[4, 0, 0], [1, 5, 0], [-1, 0.5, 6]], (True, False, True), 1.7)):
@@ -147,13 +92,6 @@ class BruteForce(unittest.TestCase):
             ordered = [rows[np.lexsort(rows.round(6).T[::-1])] for rows in (got, np.array(expected))]
             np.testing.assert_allclose(*ordered, atol=1e-9)
             self.assertGreater(len(expected), 20)
-
-    def test_many_blocks_of_rows(self):
-        positions = np.random.default_rng(3).uniform(size=(500, 3))
-        distances = np.linalg.norm(positions[:, None] - positions, axis=2)
-        expected = ((distances <= 0.1) & (distances > 0)).sum()
-        with unittest.mock.patch.object(_neighbours, "COMPARED_AT_ONCE", 7):
-            self.assertEqual(2 * count(Particles(positions), 0.1), expected)
 
     def test_images_that_the_data_give(self):
         cell = Cell.of([10, 10, 10])
@@ -301,8 +239,7 @@ class Looks(unittest.TestCase):
     def test_what_is_refused(self):
         for words, options in (
                 ("bonds = 'auto': array has no elements: must be a cutoff or pairs", {"bonds": True}),
-                ("bonds = 'x': must be auto, a cutoff > 0, or pairs", {"bonds": "x"}), ("bonds = 0: must be", {"bonds": 0}),
-                ("bonds = nan: must be", {"bonds": float("nan")}), ("bonds = '-1': must be", {"bonds": "-1"}),
+                ("bonds = 'x': must be auto, a cutoff > 0, or pairs", {"bonds": "x"}), ("bonds = nan: must be", {"bonds": float("nan")}),
                 (r"bonds = of shape \(1, 3\)", {"bonds": [[0, 1, 2]]}), (r"and float64: must be", {"bonds": [[0.0, 1]]}),
                 (r"bonds\[1\] = \[1, 7\]: must be two different particles, from 0 to 2", {"bonds": [[0, 1], [1, 7]]}),
                 (r"bonds\[0\] = \[1, 1\]", {"bonds": [[1, 1]]}), ("model = 'cartoon': must be auto", {"model": "cartoon"}),

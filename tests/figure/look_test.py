@@ -47,10 +47,6 @@ class Numbers(unittest.TestCase):
                 self.assertFalse((differ & ~border).any(), (colormap, options))
                 self.assertEqual((legend.low, legend.high), (norm.vmin, norm.vmax))
 
-    def test_default_maps(self):
-        for scale, name in (("linear", "viridis"), ("symmetric", "coolwarm")):
-            self.assertEqual(colored("v", scale=scale)[1].colormap, matplotlib.colormaps[name])
-
     def test_what_is_no_number_has_a_color_of_its_own(self):
         values = VALUES.copy()
         values[7] = np.nan
@@ -68,11 +64,11 @@ class Numbers(unittest.TestCase):
         _, legend, notes = colored(skewed)
         np.testing.assert_allclose((legend.low, legend.high), np.quantile(skewed, (0.01, 0.99)))
         self.assertIn("1% to 99% of all, which go from", notes)
-        self.assertEqual(colored("v")[1].high, VALUES.max())
+        symmetric = colored(skewed, scale="symmetric")[1]
+        self.assertTrue(symmetric.high < 6 and symmetric.colormap == matplotlib.colormaps["coolwarm"])
         rgb, legend, _ = colored(np.full(COUNT, 3.0))
         self.assertEqual((legend.low, legend.high), (3.0, 3.0))
         np.testing.assert_array_equal(rgb[0], legend.colormap(128, bytes=True)[:3])
-        self.assertLess(colored(skewed, scale="symmetric")[1].high, 6)
 
     def test_magnitudes(self):
         parts = np.random.default_rng(8).normal(size=(COUNT, 3))
@@ -162,10 +158,7 @@ class Radii(unittest.TestCase):
                               ("radius = -1", -1)):
             with self.subTest(words=words), self.assertRaisesRegex(ValueError, words):
                 prepare(particles, Options(radius=radius))
-        drawn = prepare(particles, Options(radius="r", where="r > 0"))
-        self.assertEqual(len(drawn.centers), 1)
-        for words, where in (("no column 'q'", "q > 1"), ("position 3, '!': no word begins so", "r ! 1"), ("'x': must be a number", "r < x"),
-                             ("must be == or !=", "w < a"), ("holds", "r > 9")):
+        for words, where in (("position 3, '!': no word begins so", "r ! 1"), ("holds", "r > 9")):
             with self.subTest(words=words), self.assertRaisesRegex(ValueError, words):
                 prepare(particles, Options(radius=1, where=where))
         self.assertEqual(len(prepare(particles, Options(radius=1, where=["w != a", "type == A"])).centers), 1)
@@ -190,11 +183,5 @@ class Background(unittest.TestCase):
         with pt.Context() as context:
             def picture(**options):
                 return pt.figure(POSITIONS[:50], size=(40, 30), samples=4, context=context, **options).to_srgb8()
-            white, clear = picture(), picture(background="transparent")
-            self.assertTrue((white[0, 0] == 255).all())
-            self.assertEqual((picture(background="#306090")[0, 0].tolist(), clear[0, 0].tolist()), ([48, 96, 144], [0] * 4))
-            alpha = clear[:, :, 3:] / 255.0
-            def linear(x):
-                return np.where(x <= 0.04045, x / 12.92, ((x + 0.055) / 1.055)**2.4)
-            over = linear(clear[:, :, :3] / 255.0) * alpha + (1 - alpha)
-            self.assertLess(np.abs(over - linear(white / 255.0)).max(), 3 / 255)
+            for background, expected in (("white", [255] * 3), ("#306090", [48, 96, 144]), ("transparent", [0] * 4)):
+                self.assertEqual(picture(background=background)[0, 0].tolist(), expected)

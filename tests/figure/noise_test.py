@@ -59,13 +59,11 @@ class Rule(unittest.TestCase):
         image, measured, shares = sampled(self.spread, self.covered)
         self.assertLess(measured, 1.05 * MOST_NOISE)
         self.assertGreater(measured, 0.75 * MOST_NOISE)
+        self.assertGreater(sampled(self.spread, self.covered, stated=0.5)[1], 1.5 * MOST_NOISE)
         self.assertEqual((shares[-1], shares), (1.0, sorted(shares)))
         counts = image.sample_count
         self.assertTrue((counts[~self.covered] == FIRST_SAMPLES).all())
         self.assertGreater(counts[40, 100], 2 * counts[40, 24])
-
-    def test_an_error_that_is_stated_too_small_is_seen(self):
-        self.assertGreater(sampled(self.spread, self.covered, 0.5)[1], 1.5 * MOST_NOISE)
 
     def test_pictures_without_noise_or_particles_end_at_once(self):
         for spread, covered in ((0 * self.spread, self.covered), (0 * self.spread, ~self.covered & False)):

@@ -24,12 +24,6 @@ PLY = "ply\nformat {}\nelement vertex 2\nproperty float x\nproperty float y\npro
 HEAD = "ITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS "
 ATOMS = "ITEM: ATOMS id xs ys zs\n1 0.5 0.25 0.125\n"
 
-DAMAGES = 60
-DAMAGED = {  # whether a cut file is noticed
-    "cloud.csv": False, "cloud.csv.gz": True, "cloud.tsv": False, "cloud.xyz": True, "cloud.extxyz": True, "rows.npy": True,
-    "records.npy": True, "stored.npz": True, "deflated.npz": True, "little.ply": True, "lists.ply": True,
-    "text.ply": True, "text_lists.ply": True, "melt_plain.dump": True, "tilted.dump": True}
-
 
 class InAFolder(unittest.TestCase):
     def setUp(self):
@@ -62,16 +56,6 @@ class Stored(unittest.TestCase):
                 np.testing.assert_allclose(found.column("charge" if "charge" in found.columns else "4"),
                                            expected.column("charge"), 0, charge)
                 np.testing.assert_array_equal(found.column("z"), found.positions[:, 2])
-
-    def test_fractions_of_a_cell(self):
-        """Fractions have 7 digits. Edges are at most 8 long, and each coordinate is the sum of three products."""
-        for name in "melt", "tilted":
-            scaled, plain = load(DATA / f"{name}.dump"), load(DATA / f"{name}_plain.dump")
-            np.testing.assert_allclose(scaled.positions, plain.positions, 0, 3 * 8 * 0.5e-7)
-            np.testing.assert_array_equal(scaled.types, plain.types)
-        # The file was made from a cell at 0 with xy 1.5, xz -0.7 and yz 0.9.
-        np.testing.assert_allclose(scaled.cell.origin, 0, 0, 1e-14)
-        np.testing.assert_allclose(scaled.cell.vectors[np.tril_indices(3, -1)], [1.5, -0.7, 0.9], 0, 1e-14)
 
 
 class Cells(InAFolder):
@@ -233,7 +217,6 @@ class Users(unittest.TestCase):
             with self.assertRaisesRegex(DataError, said):
                 load(DATA / "trials/posx.csv", columns=columns)
 
-
     def test_columns_that_are_radii_or_may_be(self):
         places = {"x": [0.0, 1.0], "y": [0.0, 0.0], "z": [0.0, 0.0]}
         for name, expected in (("Radius [nm]", [1, 2]), ("DIAMETER (m)", [0.5, 1]), ("radii", [1, 2])):
@@ -256,7 +239,6 @@ class Messages(InAFolder):
                 ("a", DUMP.replace("+3", "3x"), "a:11: z = '3x': must be a number"),
                 ("a", DUMP.replace("+3", "1e999"), "a: particle 2 of 2: z = inf: must be finite"),
                 ("a", DUMP.replace(" +3", ""), "a:11: '2 2 0.25 1e-1': has 4 values, must have 5"),
-                ("a", DUMP.replace("+3", "3 4"), "a:11: '2 2 0.25 1e-1 3 4': has 6 values, must have 5"),
                 ("a", DUMP.replace("2 2 0.25 1e-1 +3\n", ""), "a:10: the file ends after 1 of 2 particles of frame 0: it "
                                                               "was cut short"),
                 ("a", DUMP.replace("\n2\n", "\n-2\n"), "a:4: '-2': must be the number of atoms"),
@@ -277,35 +259,3 @@ class Messages(InAFolder):
                 ("a.csv.gz", gzip.compress(b"x,y,z\n" * 99)[:-9], "a.csv.gz: after 0 unpacked bytes: Compressed file ended")):
             with self.subTest(message):
                 self.assertEqual(self.refusal(name, text)[:len(message)], message)
-
-
-class Damaged(InAFolder):
-    """A file that is cut short or has a wrong byte must be read, or be refused with a message that names the file."""
-
-    def particles(self, name, data):
-        try:
-            return self.read(name, data)
-        except DataError as error:
-            self.assertRegex(str(error), f"(?s)^{self.folder}/{name}.{{11,}}")
-            self.assertLess(len(str(error)), 600)
-            return None
-
-    def test_files_that_end_too_early(self):
-        refused = 0
-        for name, is_counted in DAMAGED.items():
-            data = (DATA / name).read_bytes()
-            whole = load(DATA / name)
-            for size in np.random.default_rng(1).integers(0, len(data), DAMAGES).tolist():
-                with self.subTest(name, size=size):
-                    found = self.particles(name, data[:size])
-                    if found is None:
-                        refused += 1
-                        continue
-                    # Either all rows are read, or the rows before the cut. A note says if a number may be cut.
-                    is_first = name == "cloud.extxyz" and size < 3 * len(data) // 4  # cut in the first of two frames
-                    whole_frame = load(DATA / name, frame=0) if is_first else whole
-                    kept = len(found) if found.positions[-1:].tolist() == whole_frame.positions[len(found) - 1:].tolist() \
-                        or not any("may be cut" in note for note in found.notes) else len(found) - 1
-                    self.assertEqual(len(found) == len(whole), is_counted or len(found) == len(whole))
-                    np.testing.assert_array_equal(found.positions[:kept], whole_frame.positions[:kept])
-        self.assertGreater(refused, DAMAGES * len(DAMAGED) * 3 // 4)

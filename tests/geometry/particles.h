@@ -1,6 +1,5 @@
 #pragma once
 
-#include "lib/base/error.h"
 #include "lib/scene/checked_scene.h"
 #include "tests/support/checked_scene_of.h"
 #include "tests/support/scene_of.h"
@@ -10,7 +9,6 @@
 #include <array>
 #include <functional>
 #include <span>
-#include <string>
 #include <vector>
 
 namespace sphere_arrays {
@@ -61,16 +59,6 @@ struct Particles {
         spoil_scene(scene);
         return pt::owned_scene(checked_scene_of(scene));
     }
-
-    std::string outcome() const {
-        try {
-            validated();
-        } catch (const pt::Error &error) {
-            return (error.code() == PT_ERROR_INVALID_SCENE ? "" : std::string(pt::result_name(error.code())) + ": ") +
-                   error.what();
-        }
-        return "accepted";
-    }
 };
 
 inline void expect_equal(const pt::Sphere &a, const pt::Sphere &b) {
@@ -78,6 +66,7 @@ inline void expect_equal(const pt::Sphere &a, const pt::Sphere &b) {
     EXPECT_EQ(a.radius, b.radius);
     EXPECT_EQ(a.motion, b.motion);
     EXPECT_EQ(a.material, b.material);
+    EXPECT_EQ(a.look.color, b.look.color);
 }
 
 } // namespace sphere_arrays

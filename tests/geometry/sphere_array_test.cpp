@@ -4,20 +4,19 @@
 #include "lib/scene/srgb.h"
 #include "tests/geometry/particles.h"
 #include "tests/support/checked_scene_of.h"
-#include "tests/support/expected_error.h"
 #include "tests/support/scene_of.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <memory>
 #include <random>
-#include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace sphere_arrays {
@@ -28,16 +27,17 @@ namespace {
 class ColumnCopy {
 public:
     template <typename Number>
-    ColumnCopy(const std::vector<Number> &numbers, std::uint32_t components, std::uint32_t type, std::uint32_t stride,
+    ColumnCopy(const std::vector<Number> &numbers, std::uint32_t components, std::uint32_t type, std::uint32_t gap,
                std::size_t offset) {
         const std::size_t size = components * sizeof(Number);
-        const std::size_t count = stride == 0 ? 1 : numbers.size() / components;
+        const std::size_t stride = size + gap;
+        const std::size_t count = numbers.size() / components;
         const std::size_t end = offset + (count - 1) * stride + size;
         bytes_ = std::make_unique<unsigned char[]>(end);
         std::memset(bytes_.get(), 0xff, end);
         for (std::size_t i = 0; i < count; ++i)
             std::memcpy(bytes_.get() + offset + i * stride, numbers.data() + i * components, size);
-        column_ = {bytes_.get() + offset, stride, type};
+        column_ = {bytes_.get() + offset, static_cast<std::uint32_t>(stride), type};
     }
 
     const pt_column &column() const { return column_; }
@@ -47,9 +47,12 @@ private:
     pt_column column_;
 };
 
-template <typename To, typename From>
-std::vector<To> converted(const std::vector<From> &from) {
-    return {from.begin(), from.end()};
+std::vector<double> doubles_of(const std::vector<float> &floats) {
+    return {floats.begin(), floats.end()};
+}
+
+std::string digest_of(const std::vector<pt_material> &materials, const std::vector<pt_sphere> &spheres) {
+    return pt::digest_of(pt::owned_scene(checked_scene_of(scene_of(materials, spheres, {}))));
 }
 
 TEST(SphereArrays, AreTheSpheresOfStructs) {
@@ -59,12 +62,12 @@ TEST(SphereArrays, AreTheSpheresOfStructs) {
     for (const std::uint32_t gap : {0U, 1U, 4U, 1000U})
         for (const std::size_t offset : {0U, 1U, 3U, 7U}) {
             SCOPED_TRACE(testing::Message() << "gap " << gap << ", offset " << offset);
-            const ColumnCopy center(particles.center, 3, PT_TYPE_FLOAT32, 12 + gap, offset);
-            const ColumnCopy center64(converted<double>(particles.center), 3, PT_TYPE_FLOAT64, 24 + gap, offset);
-            const ColumnCopy radius(particles.radius, 1, PT_TYPE_FLOAT32, 4 + gap, offset);
-            const ColumnCopy radius64(converted<double>(particles.radius), 1, PT_TYPE_FLOAT64, 8 + gap, offset);
-            const ColumnCopy motion(particles.motion, 3, PT_TYPE_FLOAT64, 24 + gap, offset);
-            const ColumnCopy material(particles.material, 1, PT_TYPE_UINT32, 4 + gap, offset);
+            const ColumnCopy center(particles.center, 3, PT_TYPE_FLOAT32, gap, offset);
+            const ColumnCopy center64(doubles_of(particles.center), 3, PT_TYPE_FLOAT64, gap, offset);
+            const ColumnCopy radius(particles.radius, 1, PT_TYPE_FLOAT32, gap, offset);
+            const ColumnCopy radius64(doubles_of(particles.radius), 1, PT_TYPE_FLOAT64, gap, offset);
+            const ColumnCopy motion(particles.motion, 3, PT_TYPE_FLOAT64, gap, offset);
+            const ColumnCopy material(particles.material, 1, PT_TYPE_UINT32, gap, offset);
             for (const bool doubles : {false, true}) {
                 Particles read;
                 read.spoil = [&](pt_sphere_array &array) {
@@ -75,36 +78,12 @@ TEST(SphereArrays, AreTheSpheresOfStructs) {
                     array.color = {};
                 };
                 const pt::Scene found = read.validated();
-                EXPECT_EQ(found.materials.size(), 3U);
                 ASSERT_EQ(found.spheres.size(), 4U);
                 for (std::size_t i = 0; i < 4; ++i)
                     expect_equal(found.spheres[i], expected.spheres[i]);
                 EXPECT_EQ(pt::digest_of(found), pt::digest_of(expected));
             }
         }
-}
-
-TEST(SphereArrays, HaveOneValueForAllOrDefaults) {
-    const ColumnCopy radius(std::vector<double>{0.3}, 1, PT_TYPE_FLOAT64, 0, 1);
-    const ColumnCopy material(std::vector<std::uint32_t>{2}, 1, PT_TYPE_UINT32, 0, 2);
-    const ColumnCopy motion(std::vector<float>{1, 2, 3}, 3, PT_TYPE_FLOAT32, 0, 3);
-    Particles particles;
-    particles.spoil = [&](pt_sphere_array &array) {
-        array.radius = radius.column();
-        array.material = material.column();
-        array.motion = motion.column();
-        array.color = {};
-    };
-    for (const pt::Sphere &sphere : particles.validated().spheres) {
-        EXPECT_EQ(sphere.radius, 0.3);
-        EXPECT_EQ(sphere.material, 2U);
-        EXPECT_EQ(sphere.motion, glm::dvec3(1, 2, 3));
-    }
-    particles.spoil = [&](pt_sphere_array &array) { array.motion = array.material = array.color = {}; };
-    for (const pt::Sphere &sphere : particles.validated().spheres) {
-        EXPECT_EQ(sphere.material, 0U);
-        EXPECT_EQ(sphere.motion, glm::dvec3(0));
-    }
 }
 
 TEST(SphereArrays, MayHaveTwoToTheTwentySixthSpheres) {
@@ -115,85 +94,37 @@ TEST(SphereArrays, MayHaveTwoToTheTwentySixthSpheres) {
             column->stride_bytes = 0;
     };
     const pt_sphere_array array = particles.array();
-    pt_scene scene = scene_of(three_materials, {}, {}, {&array, 1});
-    const pt::CheckedScene checked = checked_scene_of(scene);
+    const pt::CheckedScene checked = checked_scene_of(scene_of(three_materials, {}, {}, {&array, 1}));
     EXPECT_EQ(checked.spheres.size(), std::size_t{1} << 26);
     EXPECT_EQ(checked.spheres[(1U << 26) - 1].radius, 1.0);
 }
 
-TEST(SphereArrays, OfNoneNeedNoColumns) {
-    Particles particles;
-    particles.spoil = [](pt_sphere_array &array) {
-        array = {sizeof array, 0, {nullptr, 12, PT_TYPE_FLOAT32}, {nullptr, 1, 77}, {}, {}, {}, {}, {}};
-    };
-    EXPECT_EQ(particles.outcome(), "accepted");
-    EXPECT_TRUE(particles.validated().spheres.empty());
-}
-
-std::vector<unsigned char> resized(std::span<const pt_sphere_array> arrays, std::uint32_t size) {
-    std::vector<unsigned char> bytes(arrays.size() * size);
-    for (std::size_t i = 0; i < arrays.size(); ++i) {
-        pt_sphere_array array = arrays[i];
-        array.struct_size = size;
-        std::memcpy(bytes.data() + i * size, &array, std::min<std::size_t>(size, sizeof array));
-    }
-    return bytes;
-}
-
-pt::Scene validated_bytes(const std::vector<unsigned char> &bytes, std::uint32_t count) {
-    pt_scene scene = scene_of(three_materials, {}, {});
-    scene.sphere_arrays = reinterpret_cast<const pt_sphere_array *>(bytes.data());
-    scene.sphere_array_count = count;
-    return pt::owned_scene(checked_scene_of(scene));
-}
-
 TEST(SphereArrays, MayBeShorterOrLonger) {
-    const Particles particles;
-    const std::array<pt_sphere_array, 2> arrays{particles.array(), particles.array()};
-    const pt::Scene whole = validated_bytes(resized(arrays, sizeof(pt_sphere_array)), 2);
-    const pt::Scene longer = validated_bytes(resized(arrays, sizeof(pt_sphere_array) + 20), 2);
-    EXPECT_EQ(pt::digest_of(longer), pt::digest_of(whole));
-    const pt::Scene shorter = validated_bytes(resized(arrays, offsetof(pt_sphere_array, motion)), 2);
+    const auto read_as = [](std::uint32_t size) {
+        const Particles particles;
+        std::vector<unsigned char> bytes(2 * std::size_t{size});
+        for (std::size_t i = 0; i < 2; ++i) {
+            pt_sphere_array array = particles.array();
+            array.struct_size = size;
+            std::memcpy(bytes.data() + i * size, &array, std::min<std::size_t>(size, sizeof array));
+        }
+        pt_scene scene = scene_of(three_materials, {}, {});
+        scene.sphere_arrays = reinterpret_cast<const pt_sphere_array *>(bytes.data());
+        scene.sphere_array_count = 2;
+        return pt::owned_scene(checked_scene_of(scene));
+    };
+    const pt::Scene whole = read_as(sizeof(pt_sphere_array));
+    EXPECT_EQ(pt::digest_of(read_as(sizeof(pt_sphere_array) + 20)), pt::digest_of(whole));
+    const pt::Scene shorter = read_as(offsetof(pt_sphere_array, motion));
     ASSERT_EQ(shorter.spheres.size(), 8U);
-    for (std::size_t i = 0; i < 8; ++i) {
-        EXPECT_EQ(shorter.spheres[i].center, whole.spheres[i].center);
-        EXPECT_EQ(shorter.spheres[i].radius, whole.spheres[i].radius);
-        EXPECT_EQ(shorter.spheres[i].motion, glm::dvec3(0));
-        EXPECT_EQ(shorter.spheres[i].material, 0U);
-    }
-}
-
-TEST(SphereArrays, OfOtherSizesAreRefused) {
-    const Particles particles;
-    const std::array<pt_sphere_array, 2> arrays{particles.array(), particles.array()};
-    std::vector<unsigned char> longer = resized(arrays, sizeof(pt_sphere_array) + 8);
-    longer.back() = 1;
-    const pt::Error unknown = error_of([&] { validated_bytes(longer, 2); });
-    EXPECT_EQ(unknown.code(), PT_ERROR_UNSUPPORTED);
-    EXPECT_STREQ(unknown.what(), "sphere_arrays[1].struct_size = 128: byte 127 is set, but this library knows only the "
-                                 "first 120 bytes of the struct");
-    std::array<pt_sphere_array, 2> unlike = arrays;
-    unlike[1].struct_size = 40;
-    const pt::Error error = error_of([&] { particles.validated(unlike); });
-    EXPECT_EQ(error.code(), PT_ERROR_INVALID_ARGUMENT);
-    EXPECT_STREQ(error.what(), "sphere_arrays[1].struct_size = 40: must be equal to that of sphere_arrays[0] (120)");
+    for (std::size_t i = 0; i < 8; ++i)
+        expect_equal(shorter.spheres[i], {whole.spheres[i].center, whole.spheres[i].radius, glm::dvec3(0), 0});
 }
 
 TEST(SphereArrays, ColorsMultiplyTheDiffuse) {
     const Particles particles;
     const pt::Scene scene = particles.validated();
-    ASSERT_EQ(scene.materials.size(), 5U);
-    EXPECT_EQ(scene.spheres[0].material, 0U);
-    EXPECT_EQ(scene.spheres[1].material, 2U);
-    const pt::Material &third = scene.materials[scene.spheres[2].material];
-    EXPECT_EQ(third.diffuse, glm::vec3(0.1F, 0.2F, 0.3F));
-    EXPECT_EQ(third.glossiness, 0.0F);
-    const pt::Material &fourth = scene.materials[scene.spheres[3].material];
-    EXPECT_EQ(fourth.diffuse, glm::vec3(0, 0.25F, 0.5F));
-    EXPECT_EQ(fourth.specular, glm::vec3(0.25F, 0.5F, 0));
-    EXPECT_EQ(fourth.emission, glm::vec3(0));
-    EXPECT_EQ(fourth.glossiness, 10.0F);
-
+    EXPECT_EQ(scene.materials.size(), 5U);
     std::vector<pt_material> by_hand = three_materials;
     by_hand.insert(by_hand.begin(), {{0, 0.25F, 0.5F}, {0.25F, 0.5F, 0}, {0, 0, 0}, 10, 0});
     by_hand.push_back({{0.1F, 0.2F, 0.3F}, {0, 0, 0}, {0, 0, 0}, 0, 0});
@@ -202,19 +133,17 @@ TEST(SphereArrays, ColorsMultiplyTheDiffuse) {
     spheres[1].material = 3;
     spheres[2].material = 4;
     spheres[3].material = 0;
-    EXPECT_EQ(pt::digest_of(scene), pt::digest_of(pt::owned_scene(checked_scene_of(scene_of(by_hand, spheres, {})))));
+    EXPECT_EQ(pt::digest_of(scene), digest_of(by_hand, spheres));
     spheres[2].material = 2;
-    EXPECT_NE(pt::digest_of(scene), pt::digest_of(pt::owned_scene(checked_scene_of(scene_of(by_hand, spheres, {})))));
+    EXPECT_NE(pt::digest_of(scene), digest_of(by_hand, spheres));
 }
 
 TEST(SphereArrays, EqualColorsShareAMaterial) {
     constexpr std::uint32_t count = 60000;
     std::vector<std::uint8_t> bytes;
-    std::vector<pt_material> by_hand{{{1, 1, 1}, {0, 0, 0}, {0, 0, 0}, 0, 0},
-                                     {{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 5, 0}};
     std::mt19937 random(1);
     Particles particles;
-    particles.materials = by_hand;
+    particles.materials = {{{1, 1, 1}, {0, 0, 0}, {0, 0, 0}, 0, 0}, {{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 5, 0}};
     particles.material.clear();
     for (std::uint32_t i = 0; i < count; ++i) {
         for (int component = 0; component < 3; ++component)
@@ -231,34 +160,12 @@ TEST(SphereArrays, EqualColorsShareAMaterial) {
     EXPECT_EQ(scene.materials.size(), 2 * 12 * 12 * 12U);
     for (std::uint32_t i = 0; i < count; ++i) {
         const pt::Material &material = scene.materials[scene.spheres[i].material];
-        const pt_material &base = by_hand[particles.material[i]];
+        const pt_material &base = particles.materials[particles.material[i]];
         ASSERT_EQ(material.glossiness, base.glossiness);
         for (int component = 0; component < 3; ++component)
             ASSERT_EQ(material.diffuse[component],
                       base.diffuse[component] * pt::linear_from_srgb(bytes[3 * i + static_cast<unsigned>(component)]));
     }
-}
-
-TEST(SphereArrays, ColorsMayBeOfAnyType) {
-    const std::vector<double> shares{0, 1, 0.1, 0.7, 0.2, 0.9, -0.0, 1, 1, 0.25, 0.5, 0.75};
-    const ColumnCopy doubles(shares, 3, PT_TYPE_FLOAT64, 25, 1);
-    const ColumnCopy floats(converted<float>(shares), 3, PT_TYPE_FLOAT32, 13, 3);
-    const ColumnCopy bytes(std::vector<std::uint8_t>{0, 255, 10, 11, 128, 200, 1, 2, 3, 254, 40, 50}, 3, PT_TYPE_SRGB8,
-                           5, 1);
-    Particles particles;
-    const auto color = [&](const ColumnCopy &copy, std::uint32_t index) {
-        pt_sphere_array array = particles.array();
-        array.color = copy.column();
-        return pt::SphereSource({}, {&array, 1})[index].look.color;
-    };
-    for (std::uint32_t i = 0; i < 4; ++i)
-        EXPECT_EQ(color(doubles, i), color(floats, i)) << i;
-    EXPECT_EQ(color(floats, 3), glm::vec3(0.25F, 0.5F, 0.75F));
-    EXPECT_EQ(color(bytes, 0), glm::vec3(0, 1, pt::linear_from_srgb(10)));
-    EXPECT_EQ(color(bytes, 3),
-              glm::vec3(pt::linear_from_srgb(254), pt::linear_from_srgb(40), pt::linear_from_srgb(50)));
-    particles.spoil = [&](pt_sphere_array &array) { array.color = doubles.column(); };
-    EXPECT_EQ(particles.outcome(), "accepted");
 }
 
 TEST(Srgb, IsDecodedAsTheStandardSays) {
@@ -267,8 +174,70 @@ TEST(Srgb, IsDecodedAsTheStandardSays) {
         const double linear = encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
         EXPECT_EQ(pt::linear_from_srgb(static_cast<std::uint8_t>(byte)), static_cast<float>(linear)) << byte;
     }
-    EXPECT_EQ(pt::linear_from_srgb(0), 0.0F);
-    EXPECT_EQ(pt::linear_from_srgb(255), 1.0F);
+}
+
+TEST(SphereSource, ReadsInOrderAcrossArrays) {
+    std::vector<float> center(3 * 1003);
+    std::vector<float> color(3 * 1003);
+    for (std::size_t i = 0; i < center.size(); ++i) {
+        center[i] = static_cast<float>(i + 1);
+        color[i] = static_cast<float>(i) / static_cast<float>(center.size());
+    }
+    const float radius = 0.5F;
+    const std::vector<pt_sphere> structs(5, pt_sphere{{9, 9, 9}, 3, {1, 0, 0}, 1, 0});
+    std::vector<pt::Sphere> expected(5, {{9, 9, 9}, 3, {1, 0, 0}, 1});
+    std::vector<pt_sphere_array> arrays;
+    for (const std::uint32_t count : {0U, 1U, 300U, 0U, 0U, 700U, 2U, 0U}) {
+        const float *const at = center.data() + 3 * (expected.size() - structs.size());
+        const float *const colors = color.data() + (at - center.data());
+        arrays.push_back(array_of(count, {at, 12, PT_TYPE_FLOAT32}, {&radius, 0, PT_TYPE_FLOAT32}));
+        if (count != 300)
+            arrays.back().color = {colors, 12, PT_TYPE_FLOAT32};
+        for (std::uint32_t i = 0; i < 3 * count; i += 3) {
+            expected.push_back({{at[i], at[i + 1], at[i + 2]}, 0.5, {0, 0, 0}, 0});
+            if (count != 300)
+                expected.back().look.color = {colors[i], colors[i + 1], colors[i + 2]};
+        }
+    }
+    const pt::SphereSource source(structs, arrays);
+    ASSERT_EQ(source.size(), expected.size());
+    const std::vector<std::uint32_t> starts(source.array_starts().begin(), source.array_starts().end());
+    EXPECT_EQ(starts, (std::vector<std::uint32_t>{5, 5, 6, 306, 306, 306, 1006, 1008}));
+    pt::WorkProgress nobody;
+    std::uint32_t next = 0;
+    source.for_each(nobody, [&](std::uint32_t index, const pt::Sphere &sphere) {
+        ASSERT_EQ(index, next++);
+        expect_equal(sphere, expected[index]);
+        expect_equal(source[index], expected[index]);
+    });
+    EXPECT_EQ(next, source.size());
+
+    std::vector<std::uint32_t> indices;
+    for (std::uint32_t i = 0; i < source.size(); ++i)
+        indices.push_back(i % 3 == 0 ? i * 401 % 1008 : 1007 - i);
+    for (std::uint32_t i = 0; i < source.size(); ++i)
+        indices.push_back(i);
+    std::size_t read = 0;
+    source.for_each(indices, nobody, [&](std::size_t i, const pt::Sphere &sphere) {
+        ASSERT_EQ(i, read++);
+        expect_equal(sphere, expected[indices[i]]);
+    });
+    EXPECT_EQ(read, indices.size());
+}
+
+TEST(Scene, KnowsWhereTheCallerHasASphere) {
+    pt::Scene scene;
+    scene.array_starts = {2, 2, 5};
+    for (const auto &[index, expected] : {std::pair(1, "spheres 1 -1"),
+                                          {2, "sphere_arrays 1 0"},
+                                          {4, "sphere_arrays 1 2"},
+                                          {5, "sphere_arrays 2 0"},
+                                          {9, "sphere_arrays 2 4"}}) {
+        const pt::SpherePlace found = pt::place_of_sphere(scene, static_cast<std::size_t>(index));
+        EXPECT_EQ(std::string(found.subject) + ' ' + std::to_string(found.index) + ' ' +
+                      std::to_string(found.component),
+                  expected);
+    }
 }
 
 } // namespace

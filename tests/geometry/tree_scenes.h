@@ -40,10 +40,17 @@ public:
         return scene;
     }
 
+    // In a sphere, in front of all or far away. A distance of 10^5 times the scene's size rounds depths to few values.
+    // A wide view from there includes the horizon.
     pt::Camera camera(const pt::Scene &scene) {
-        pt::Camera camera{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, 0.0, 1.0};
-        camera.position =
-            uniform(0.0, 1.0) < 0.2 ? scene.spheres[scene.spheres.size() / 3].center : glm::dvec3(0.1, 0.2, 6);
+        pt::Camera camera{{0.1, 0.2, 6}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, 0.0, 1.0};
+        const double choice = uniform(0.0, 1.0);
+        if (choice < 0.2)
+            camera.position = scene.spheres[scene.spheres.size() / 3].center;
+        if (choice > 0.7)
+            camera.position.z = 4e5;
+        if (choice > 0.8)
+            camera.view_size = 1e-5;
         return camera;
     }
 

@@ -104,8 +104,6 @@ class Documents(unittest.TestCase):
         self.assertIn(ROOT / "README.md", PAGES)
         for page in PAGES:
             self.assertEqual(broken_links(page, page.read_text(encoding="utf-8")), [], page)
-
-    def test_a_broken_link_is_found(self):
         page = ROOT / "README.md"
         text = "[a](LICENSE) [b](no-such-file) [c](#two-commands) [d](#no-such-heading) [e](cli/README.md#no-such-heading)"
         self.assertEqual(broken_links(page, text), ["no-such-file", "#no-such-heading", "cli/README.md#no-such-heading"])

@@ -52,11 +52,8 @@ class Quickstart(unittest.TestCase):
 
     def test_a_picture_needs_few_packages(self):
         self.assertEqual(self.run_script("render"), 0)
-        for name in ("libopenimageio-dev", "glslang-dev", "vulkan-validationlayers", "libgtest-dev", "doxygen",
-                     "build-essential", "pkg-config", "file"):
-            self.assertNotIn(name, self.packages())
-        for name in "g++", "libpng-dev", "mesa-vulkan-drivers":
-            self.assertIn(name, self.packages())
+        self.assertFalse({"libopenimageio-dev", "glslang-dev", "libgtest-dev", "build-essential"} & set(self.packages()))
+        self.assertLess({"g++", "libpng-dev", "mesa-vulkan-drivers"}, set(self.packages()))
         self.assertIn("cmake --preset release -DPT_BUILD_TESTS=OFF -DPT_UNITY=ON", self.lines)
         self.assertTrue(self.lines[-1].startswith("pt render "), self.lines)
         self.assertTrue(self.lines[-1].endswith(" -o coursework.png"), self.lines)
@@ -81,9 +78,7 @@ class Quickstart(unittest.TestCase):
         del steps["tidy"][2]
         for failing, left_out, failed in (
                 ("", [], []),
-                ("ctest --preset release=8", [], ["release"]),
                 ("cmake --preset tidy=3|ctest --preset release=1", ["cmake --build --preset tidy"], ["release", "tidy"]),
-                ("cmake --preset release=1", ["ctest --preset release", "cmake --build --preset release"], ["release"]),
                 ("cmake --build --preset release=1|ctest --preset sanitize=8", ["ctest --preset release"],
                  ["release", "sanitize"])):
             with self.subTest(failing=failing):
@@ -99,18 +94,12 @@ class Quickstart(unittest.TestCase):
         self.run_script("test", failing="python3 -c import chemfiles=1")
         line, = (line for line in self.lines if "pip install" in line)
         self.assertRegex(line, "python3 -m pip install .*--target build/python-modules gemmi==.* chemfiles==")
-        self.assertEqual(self.run_script("test", failing="python3 -c import chemfiles=1|python3 -m pip=1"), 1)
-        self.assertFalse([line for line in self.lines if line.startswith("cmake")])
 
-    def test_a_build_that_fails_renders_nothing(self):
-        self.assertEqual(self.run_script("render", failing="cmake --preset release=3"), 3)
-        self.assertFalse([line for line in self.lines if line.startswith("pt")])
-        self.assertEqual(self.run_script("render", failing="apt-get install=100"), 100)
-        self.assertFalse([line for line in self.lines if line.startswith("cmake")])
-
-    def test_an_unknown_command_is_told(self):
-        self.assertEqual(self.run_script("rendr"), 2)
-        self.assertEqual(self.lines, [])
+    def test_nothing_goes_on_after_a_failure(self):
+        for command, failing, code, not_run in (("render", "cmake --preset release=3", 3, "pt"), ("render", "apt-get install=100", 100, "cmake"),
+                                                ("test", "python3 -c import chemfiles=1|python3 -m pip=1", 1, "cmake"), ("rendr", "", 2, "")):
+            self.assertEqual(self.run_script(command, failing=failing), code)
+            self.assertFalse([line for line in self.lines if line.startswith(not_run)])
 
     def test_scripts_that_no_test_runs_can_be_read(self):
         broken = self.root / "broken.sh"

@@ -37,12 +37,6 @@ class Columns(unittest.TestCase):
         without = pt.SphereArray(POSITIONS, RADII, INDICES)
         self.assertFalse(np.array_equal(radiance(self.context, scene_of(without)), self.plain))
 
-    def test_spheres_one_by_one_are_the_same(self):
-        spheres = [pt.Sphere(*sphere) for sphere in zip(POSITIONS, RADII, INDICES)]
-        one_by_one = pt.Scene([SUN, *spheres], materials=MATERIALS)
-        without = pt.SphereArray(POSITIONS, RADII, INDICES)
-        np.testing.assert_array_equal(radiance(self.context, one_by_one), radiance(self.context, scene_of(without)))
-
     def test_ends_make_capsules(self):
         self.check((), end=POSITIONS)
         ends = POSITIONS + np.float32([0.3, 0, 0])
@@ -52,8 +46,6 @@ class Columns(unittest.TestCase):
         turned = pt.SphereArray(POSITIONS, RADII, INDICES, color=COLORS, end=np.asfortranarray(ends.astype(float)))
         self.assertEqual(turned.copied, ("end",))
         np.testing.assert_array_equal(radiance(self.context, scene_of(turned)), capsules)
-        with self.assertRaisesRegex(ValueError, "end"):
-            pt.SphereArray(POSITIONS, RADII, INDICES, end=ends[1:])
 
     def test_layouts_that_are_read_in_place(self):
         particles = np.zeros(COUNT, [("charge", "i1"), ("position", "f4", 3), ("radius", "f8"), ("kind", "u4")])
@@ -91,20 +83,6 @@ class Columns(unittest.TestCase):
                                       radiance(self.context, scene_of(repeated)))
         self.check(("radius",), radii=RADII.tolist(), motion=np.broadcast_to(np.zeros(3), (COUNT, 3)))
 
-    def test_motion(self):
-        array = pt.SphereArray(POSITIONS, RADII, INDICES, motion=np.array((1.0, 0.0, 0.0)), color=COLORS)
-        self.assertFalse(np.array_equal(radiance(self.context, scene_of(array)), self.plain))
-
-    def test_bytes_are_srgb(self):
-        srgb = np.arange(3 * COUNT, dtype=np.uint8).reshape(COUNT, 3)
-        signal = srgb / 255
-        linear = np.where(signal <= 0.04045, signal / 12.92, ((signal + 0.055) / 1.055)**2.4)
-        images = [radiance(self.context, scene_of(pt.SphereArray(POSITIONS, RADII, 0, color=color)))
-                  for color in (srgb, linear)]
-        # Trees store colors to a thousandth, and a path hits at most six surfaces.
-        np.testing.assert_allclose(*images, rtol=2e-3 * 6)
-        self.assertGreater(np.abs(images[0] - self.plain).max(), 0.01)
-
     def test_nothing_is_copied(self):
         positions, radii, colors = np.zeros_like(POSITIONS), RADII.astype(float), np.zeros_like(COLORS)
         array = pt.SphereArray(positions, radii, INDICES, color=colors)
@@ -120,7 +98,7 @@ class Columns(unittest.TestCase):
             self.context.set_scene(scene_of(array))
 
     def test_what_does_not_fit_is_refused(self):
-        for error, words, arguments in (
+        for error, words, arguments, *colors in (
                 (ValueError, rf"center.shape = \({COUNT},\): must be \(n, 3\)", (RADII, RADII, 0)),
                 (ValueError, rf"radius.shape = \({COUNT - 1},\): must be \({COUNT},\) or \(\)", (POSITIONS, RADII[1:], 0)),
                 (ValueError, "indices of materials", (POSITIONS, RADII, -1)),
@@ -128,12 +106,12 @@ class Columns(unittest.TestCase):
                 (TypeError, "must be of real numbers", (POSITIONS.astype(complex), RADII, 0)),
                 (TypeError, "must be of real numbers", (POSITIONS > 0, RADII, 0)),
                 (TypeError, "must be of integers", (POSITIONS, RADII, RADII)),
+                (TypeError, r"color.dtype = .*: must be uint8 \(sRGB", (POSITIONS, RADII, 0), COLORS.astype(np.uint16)),
+                (TypeError, r"color.dtype = .*: must be uint8 \(sRGB", (POSITIONS, RADII, 0), COLORS > 0),
+                (ValueError, "end", (POSITIONS, RADII, 0), None, POSITIONS[1:]),
         ):
             with self.subTest(words=words), self.assertRaisesRegex(error, words):
-                pt.SphereArray(*arguments)
-        for colors in COLORS.astype(int), COLORS.astype(np.uint16), COLORS > 0:
-            with self.assertRaisesRegex(TypeError, r"color.dtype = .*: must be uint8 \(sRGB"):
-                pt.SphereArray(POSITIONS, RADII, 0, color=colors)
+                pt.SphereArray(*arguments, **dict(zip(("color", "end"), colors)))
         with self.assertRaisesRegex(pt.InvalidSceneError, r"sphere_arrays\[0\].radius\[7\] = -1: must be > 0"):
             self.context.set_scene(scene_of(pt.SphereArray(POSITIONS, np.where(np.arange(COUNT) == 7, -1, RADII), 0)))
 

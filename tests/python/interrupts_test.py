@@ -88,21 +88,6 @@ class Interrupts(unittest.TestCase):
                 self.context.accumulate(ENDLESS)
             self.check_usable()
 
-    def test_a_signal_while_a_tree_is_made(self):
-        self.context.accumulate(4)
-        film, shares = self.context.film(), []
-
-        def start_clock(share):
-            if not shares:
-                signal.setitimer(signal.ITIMER_REAL, 0.001)
-            shares.append(share)
-
-        with self.assertRaises(Alarm):
-            self.context.set_scene(many_spheres(), start_clock)
-        self.assertLess(shares[-1], 1.0)
-        self.assertEqual(self.context.film(), film)
-        self.check_usable()
-
     def test_what_a_log_raises(self):
         def fail(_level, _line):
             raise LookupError
@@ -126,26 +111,3 @@ class Interrupts(unittest.TestCase):
         finally:
             sys.unraisablehook = hook
         self.assertEqual(set(told), {LookupError})
-
-    def test_a_hook_that_is_set_meanwhile_stays(self):
-        before, told = sys.unraisablehook, []
-
-        def hook(raised):
-            told.append(raised)
-            inner(raised)
-
-        def put_hook(_):
-            nonlocal inner
-            if sys.unraisablehook is not hook:
-                inner, sys.unraisablehook = sys.unraisablehook, hook
-
-        def fail(_):
-            raise LookupError
-
-        inner = None
-        self.context.accumulate(1, progress=put_hook)
-        self.assertIs(sys.unraisablehook, hook)
-        with self.assertRaises(LookupError):
-            self.context.accumulate(1, progress=fail)
-        self.assertIs(sys.unraisablehook, hook)
-        sys.unraisablehook = before

@@ -19,8 +19,8 @@ BALLS = [pt.Sphere((-1, -1, 0), 1, GLOSSY), pt.Sphere((1.2, 1, -1), 1.5, LAMP), 
 CLOUD = [pt.Sphere(center, 0.25, material) for center, material in zip(np.random.default_rng(3).uniform(-2, 2, (200, 3)), 50 * [WHITE, WHITE,
          GLOSSY, WHITE])]
 DOME = [pt.Sphere((0, 0, 0), 100, SKY)]
-SCENES = {"a closed room": pt.Scene(BALLS, ROOM), "a sky": pt.Scene(BALLS + DOME, FLOOR), "a sky alone": pt.Scene(BALLS[2:] + DOME, FLOOR),
-          "a tree": pt.Scene(CLOUD + BALLS[1:2] + DOME, FLOOR), "a tree in a room": pt.Scene(CLOUD + BALLS[1:2], ROOM)}
+SCENES = {"a closed room": pt.Scene(BALLS, ROOM), "a sky alone": pt.Scene(BALLS[2:] + DOME, FLOOR),
+          "a tree": pt.Scene(CLOUD + BALLS[1:2] + DOME, FLOOR)}
 CAMERA = pt.Camera((0.3, 0.2, 3.8), (0, 0, 0), vertical_fov=1.2)
 SAMPLES = 512
 STANDARD_ERRORS = 5.4  # exceeded once in ten million
@@ -77,7 +77,3 @@ class Minnaert(unittest.TestCase):
         path.write_text(text.replace("(1.5 / PI)", "(1.35 / PI)"))
         self.context.reload_shaders()
         self.assertGreater(self.difference(SCENES["a sky alone"], pt.Estimator.BSDF, expected)[0], 1)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -4,6 +4,7 @@ import pathlib
 import random
 import tempfile
 import unittest
+from dataclasses import replace
 from unittest import mock
 
 import numpy as np
@@ -50,34 +51,22 @@ def parsed(*changes, **options):
 
 
 class Sections(unittest.TestCase):
-    def test_camera(self):
+    def test_projections(self):
         found = parsed()
-        self.assertEqual((found.settings.width, found.settings.height), (64, 32))
-        self.assertEqual(found.camera.position, (1, 2, 3))
-        self.assertEqual(found.camera.up, (0, 1, -0.5))
-        self.assertAlmostEqual(math.tan(found.camera.vertical_fov / 2), 1, 14)
+        self.assertEqual(found.notes, [])
         # The target is the point on the view's axis nearest to the middle of both spheres, (1.5, 2, -7).
         self.assertEqual(found.camera.target, (1, 2, -7))
-        self.assertEqual(found.notes, [])
-
-    def test_projections(self):
         self.assertEqual(parsed(("Zoom 0.5", "Projection Orthographic Zoom 0.5")).camera.vertical_extent, 2)
         framed = parsed(("End_Camera", "Frustum -1.5 1.5 -0.75 0.75 End_Camera"))
         self.assertAlmostEqual(math.tan(framed.camera.vertical_fov / 2), 0.75, 14)
         focused = parsed(("Zoom 0.5", "Projection Perspective_DoF FocalLength 3 Aperture 0.1 Zoom 0.5"))
         self.assertEqual(focused.notes, ["a.dat:6: PERSPECTIVE_DOF: depth of field is left out"])
-        focused = parsed(("Zoom 0.5", "Projection Perspective_DoF FocalDist 3 Aperture 0 Zoom 0.5"))
-        self.assertEqual(focused.notes, [])
+        self.assertEqual(parsed(("Zoom 0.5", "Projection Perspective_DoF FocalDist 3 Aperture 0 Zoom 0.5")).notes, [])
 
-    def test_surfaces(self):
+    def test_materials(self):
         scene = parsed().scene
-        spheres = scene.sphere_arrays[0]
-        np.testing.assert_array_equal(spheres.center, [[2, 2, -7], [0, 2, -7]])
-        np.testing.assert_array_equal(spheres.radius, [2, 1])
-        plane = scene.planes[0]
-        self.assertEqual((plane.normal, plane.offset), ((0, 2, -1), 6))  # 2 y - z + 6 is 0 at (0, -5, -4)
-        gold, mirror = (scene.materials[index] for index in spheres.material)
-        self.assertEqual(scene.materials[plane.material], gold)
+        gold, mirror = (scene.materials[index] for index in scene.sphere_arrays[0].material)
+        self.assertEqual(scene.materials[scene.planes[0].material], gold)
         self.assertEqual(gold, pt.Material((0.5, 0.25, 0.125), (0.05, 0.025, 0.0125), glossiness=18))
         self.assertEqual(mirror, pt.Material((0, 0.5, 1), 0.75, glossiness=1e6))
         self.assertEqual(parsed(("Metal", "Plastic")).scene.materials[0].specular, (0.05, 0.05, 0.05))
@@ -97,19 +86,9 @@ class Sections(unittest.TestCase):
         self.assertEqual(found.camera.target, (1, 2, -5.75))  # z is the middle of -0.5 and -11.
         for ring in ("Center 1 2 3 Normal 0 0 1 Inner 0.1 Outer 0.25", "Center 1 2 3 Normal 0 0 1 Inner 0 Outer 0.5",
                      "Center 1 2 4 Normal 0 0 1 Inner 0 Outer 0.25"):
-            with self.subTest(ring), self.assertRaisesRegex(ValueError, "a.dat:29: RING is a ring: only spheres, cylinders"):
-                parsed(("Plane", f"{tube}\n\nRing {ring} metal\nPlane"))
             found = parsed(("Plane", f"Ring {ring} metal\n{tube}Ring {ring} metal\nPlane"), leave_out_others=True)
             self.assertEqual(found.notes, ["2 x RING, a ring: left out"])
             self.assertEqual(len(found.scene.sphere_arrays[1]), 1)
-
-    def test_fog_is_left_out(self):
-        fog = "Fog {} Start 0.5 End 10 Density 0.4 Color 1 1 1\nTexDef gold"
-        for kind in ("Linear", "Exp", "Exp2"):
-            found = parsed(("TexDef gold", fog.format(kind)))
-            self.assertEqual(found.notes, ["a.dat:16: FOG is left out, so far surfaces have their full colors"])
-            self.assertEqual(len(found.scene.sphere_arrays[0]), 2)
-        self.assertEqual(parsed(("TexDef gold", fog.format("Off"))).notes, [])
 
     def test_a_white_background_stays_white_and_shapes_stay_apart_from_it(self):
         found = parsed(("Background 0.5 0.25 0.125", "Background 1 1 1"))
@@ -117,28 +96,22 @@ class Sections(unittest.TestCase):
         with pt.Context() as context:
             image = context.render(found.scene, found.camera, found.settings, 1)
         self.assertEqual(image.to_srgb8(exposure=0)[0, 0].tolist(), [255, 255, 255])
-        lights = [_lights.Light("", (1, 1, 1), (0, 1, 0), is_directional=True)]
-        for background, count, share in ((1, 2, 1 / 2), (1, 1, 1 / 3), (0.25, 1, 3 / 4), (0, 3, 1)):
-            self.assertAlmostEqual(_lights.dimmed(lights * count, 3 * (background,))[0].color[1], share)
+        light = _lights.Light("", (1, 1, 1), (0, 1, 0), is_directional=True)
+        self.assertAlmostEqual(_lights.dimmed([light], (1, 1, 1))[0].color[1], 1 / 3)
         self.assertEqual(_lights.dimmed([], (1, 1, 1)), [])
 
     def test_equal_textures_are_one_material(self):
-        sphere = "Sphere Center 0 0 0 Rad 1 Texture Ambient 0 Diffuse 1 Specular 0 Opacity 1 Color {} TexFunc 0\n"
-        more = "".join(map(sphere.format, ("1 0 0", "0 1 0", "1 0 0")))
-        first, second, third = parsed(("Plane", more + "Plane")).scene.sphere_arrays[0].material[2:]
-        self.assertEqual(first, third)
-        self.assertNotEqual(first, second)
+        sphere = "Sphere Center 0 0 0 Rad 1 Texture Ambient 0 Diffuse 1 Specular 0 Opacity 1 Color 1 0 0 TexFunc 0\n"
+        self.assertEqual(parsed(("Plane", f"{sphere}{sphere}Plane")).scene.sphere_arrays[0].material.tolist(), [0, 1, 2, 2])
 
     def test_lights_are_lamps(self):
         sun, lamp, sky = parsed().scene.spheres
-        distance = 100 * math.sqrt(170)  # a hundred times the distance of the farthest light, sqrt(1 + 13^2)
-        self.assertAlmostEqual(sun.center[1], 2 + distance, 9)
-        self.assertAlmostEqual(sun.radius, distance / 50, 9)
         share = 1 - 0.5 / 2.25  # the background has up to 0.5, and both lights have up to 2.25
         np.testing.assert_allclose(sun.material.emission, share * np.array([2500, 1250, 625]), rtol=1e-12)
         self.assertTrue(sun.material.hidden_from_camera)
         self.assertEqual((lamp.center, lamp.radius), ((2, 2, 6), 0.5))
         self.assertFalse(lamp.material.hidden_from_camera)
+        # The lamp is sqrt(1 + 13^2) from the target.
         np.testing.assert_allclose(lamp.material.emission, share * np.array([0.5, 1, 2]) * 170 / 0.25, rtol=1e-12)
         self.assertEqual(sky.material.emission, (0.5, 0.25, 0.125))
         faded = parsed(("Rad 0.5 Color", "Rad 0.5 Attenuation Constant 1 Linear 0 Quadratic 0.1 Color")).scene.spheres[1]
@@ -149,7 +122,6 @@ class Sections(unittest.TestCase):
                 ("Rad 2 metal", "Rad 2 silver", '19: "silver": must be TEXTURE or the name of a TEXDEF before it'),
                 ("Rad 2 ", "Rad -2 ", "19: RAD = -2: must be above 0"),
                 ("Rad 2 ", "Rad nan ", '19: RAD = "nan": must be a finite number'),
-                ("Rad 2 ", "2 ", '19: "2" must be RAD'),
                 ("Aspectratio 1", "Aspectratio 1.5", "7: ASPECTRATIO: must be 1, because pixels are square"),
                 ("Zoom 0.5", "Projection Fisheye Zoom 0.5",
                  '6: PROJECTION "FISHEYE": must be PERSPECTIVE, PERSPECTIVE_DOF or ORTHOGRAPHIC'),
@@ -161,11 +133,7 @@ class Sections(unittest.TestCase):
                 ("End_Scene", "", "23: the file ends where END_SCENE must be: it was cut short"),
                 ("Sphere Center 0", "Cylinder Center 0", "20: CYLINDER is a cylinder without ends: only spheres, "),
                 ("Sphere Center 0", "FCylinder Center 0", '20: "Center" must be BASE'),
-                ("Sphere Center 0", "PolyCylinder Points 0", "20: POINTS = 0: must be a whole number from 1 to 2^32 - 1"),
-                ("Sphere Center 0", "PolyCylinder Points 2", '20: POINTS = "Rad": must be a finite number'),
-                ("Sphere Center 0 2 7", "FCylinder Base 0 0 0 Apex 1 1 1 Rad 0 gold", "20: RAD = 0: must be above 0"),
-                ("Background", "Fog Thick Start 0 End 10 Density 0.4 Color 1 1 1 Background",
-                 '15: FOG "THICK": must be LINEAR, EXP, EXP2 or OFF'),
+                ("Background", "Fog Thick", '15: FOG "THICK": must be LINEAR, EXP, EXP2 or OFF'),
                 ("Sphere Center 0", "Ball Center 0", '20: "BALL": must be CAMERA, ')):
             with self.subTest(new), self.assertRaises(ValueError) as caught:
                 parsed((old, new))
@@ -179,12 +147,16 @@ class Sections(unittest.TestCase):
         self.assertEqual((len(found.scene.sphere_arrays[0]), len(found.scene.planes)), (2, 1))
 
     def test_what_is_left_out_is_told_once(self):
+        fog = "Fog {} Start 0.5 End 10 Density 0.4 Color 1 1 1 Background"
+        self.assertEqual(parsed(("Background", fog.format("Off"))).notes, [])
         found = parsed(
+            ("Background", fog.format("Exp2")),
             ("TexFunc 0", "TexFunc 9 wood.ppm Center 0 0 0 Rotate 0 0 0 Scale 1 1 1 UAxis 1 0 0 VAxis 0 1 0"),
             ("Opacity 1", "Opacity 0.5"), ("Opacity 1", "Opacity 0"),
             ("Trans_Max_Surfaces 4", "Ambient_Occlusion Ambient_Color 1 1 1 Rescale_Direct 0.3 Samples 12"))
         self.assertEqual(found.notes, [
             "a.dat:4: AMBIENT_OCCLUSION: its light from all sides is left out",
+            "a.dat:15: FOG is left out, so far surfaces have their full colors",
             "a.dat:16: OPACITY: transparency is left out, so surfaces are opaque",
             "a.dat:17: TEXFUNC: patterns and images on surfaces are left out, so they have their plain color"])
 
@@ -199,21 +171,6 @@ class Lamps(unittest.TestCase):
         lamps, warnings = _lights.lamps_of([light], self.around(*surfaces))
         self.assertEqual((len(lamps), warnings), (1, []))
         return lamps[0]
-
-    @staticmethod
-    def irradiance(lamp):
-        widest = math.asin(lamp.radius / np.linalg.norm(lamp.center))
-        angles = (np.arange(20000) + 0.5) * widest / 20000
-        return 2 * math.pi * lamp.material.emission[1] * np.sum(np.cos(angles) * np.sin(angles)) * widest / 20000
-
-    def test_they_light_what_is_looked_at_as_the_light_would(self):
-        for radius in (0, 0.25, 2):
-            lamp = self.only_lamp(_lights.Light("", (1, 0.5, 0), (3, 4, 0), radius=radius))
-            self.assertAlmostEqual(self.irradiance(lamp), math.pi * 0.5, 8)
-            self.assertEqual(lamp.radius, radius or 0.1)
-        sun = self.only_lamp(_lights.Light("", (1, 0.5, 0), (0, 2, 0), is_directional=True))
-        self.assertAlmostEqual(self.irradiance(sun), math.pi * 0.5, 8)
-        self.assertEqual(sun.center[1], 800)
 
     def test_they_touch_nothing(self):
         light = _lights.Light("", (1, 1, 1), (3, 4, 0))
@@ -231,7 +188,11 @@ class Lamps(unittest.TestCase):
                                            self.around(planes=[pt.Plane((0, 1, 0), -4, 0)]))
         self.assertEqual((lamps, warnings), ([], ["a:7: the light lies on a surface, and is left out"]))
 
-    def test_at_what_is_looked_at_it_is_measured_at_the_camera(self):
+    def test_distances_and_radii(self):
+        self.assertEqual(self.only_lamp(_lights.Light("", (1, 0.5, 0), (3, 4, 0))).radius, 5 / 50)
+        self.assertEqual(self.only_lamp(_lights.Light("", (1, 0.5, 0), (3, 4, 0), radius=2)).radius, 2)
+        self.assertEqual(self.only_lamp(_lights.Light("", (1, 0.5, 0), (0, 2, 0), is_directional=True)).center[1], 800)
+        # A light at the target is measured from the camera.
         self.assertEqual(self.only_lamp(_lights.Light("", (1, 1, 1), (0, 0, 0))).radius, 8 / 50)
 
     def test_the_target_is_among_what_is_seen(self):
@@ -251,10 +212,7 @@ class Pictures(unittest.TestCase):
             with self.subTest(name):
                 found = read(DATA / f"{name}.dat")
                 self.assertEqual(self.differences(found), (0, True))
-                mirrored = pt.Camera(found.camera.position, found.camera.target,
-                                     tuple(np.multiply(found.camera.up, (-1, 1, 1))), found.camera.vertical_fov,
-                                     vertical_extent=found.camera.vertical_extent)
-                found.camera = mirrored
+                found.camera = replace(found.camera, up=tuple(np.multiply(found.camera.up, (-1, 1, 1))))
                 self.assertGreater(self.differences(found)[0], 300)
 
     def differences(self, found):
@@ -288,15 +246,12 @@ class Damage(unittest.TestCase):
             return None
         return len(found.scene.sphere_arrays[0]) if found.scene.sphere_arrays else 0
 
-    def test_cut_short_is_refused(self):
-        text = (DATA / "parallel.dat").read_text()
-        end = text.upper().index("END_SCENE") + len("END_SCENE")
-        for size in random.Random(1).choices(range(len(text)), k=200):
-            self.assertEqual(self.outcome(text[:size]) is None, size < end, size)
-
-    def test_changed_bytes_do_no_harm(self):
+    def test_cut_or_changed_files_do_no_harm(self):
         text, chance, refused = (DATA / "perspective.dat").read_text(), random.Random(2), 0
+        end = text.upper().index("END_SCENE") + len("END_SCENE")
         for index in range(200):
+            size = chance.randrange(len(text))
+            self.assertEqual(self.outcome(text[:size]) is None, size < end, size)
             changed = list(text)
             for _ in range(1 + index % 3):
                 changed[chance.randrange(len(text) if index % 2 else 250)] = chance.choice("0123456789.-+eE# \nvbfls\xff")

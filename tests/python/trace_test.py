@@ -149,34 +149,13 @@ class Traces(unittest.TestCase):
                 trace = tracer.trace(ROOM, CAMERA, settings, x, y, sample)
                 self.assertEqual([vertex.number for vertex in trace.vertices], [1, 2, 3, 4])
                 self.check_path(trace, ROOM, CAMERA, 1)
-                numbers = [number for vertex in trace.vertices for number in vertex.numbers]
-                self.assertEqual(numbers, course_numbers(settings.width * y + x, sample, self.seed_word(), 6))
+                for before, vertex in zip(trace.vertices, trace.vertices[1:]):
+                    height, turn = 1 - 2 * vertex.numbers[0], 2 * np.pi * vertex.numbers[1]
+                    side = np.sqrt(1 - height**2)
+                    direction = (side * np.cos(turn), side * np.sin(turn), height)  # or the opposite one, above the surface
+                    self.assertAlmostEqual(abs(np.dot(unit(vertex.position - before.position), direction)), 1, 6)
                 np.testing.assert_array_equal(trace.radiance, self.film(context, ROOM, settings, sample)[y, x])
             kernel = folder / "pathtrace.comp"
             kernel.write_text(kernel.read_text().replace("(2.0 * PI);", "(4.0 * PI);", 1))
             with self.assertRaises(AssertionError):
                 self.check_path(tracer.trace(ROOM, CAMERA, settings, 5, 7, 0), ROOM, CAMERA, 1)
-
-    def seed_word(self):
-        """Returns the first word of seed 0's hash by the finalizer of splitmix64."""
-        mask = 2**64 - 1
-        z = 0x9e3779b97f4a7c15
-        z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9 & mask
-        z = (z ^ z >> 27) * 0x94d049bb133111eb & mask
-        return (z ^ z >> 31) & 0xffffffff
-
-
-def pcg(word):
-    state = (word * 747796405 + 2891336453) % 2**32
-    mixed = ((state >> ((state >> 28) + 4)) ^ state) * 277803737 % 2**32
-    return mixed >> 22 ^ mixed
-
-
-def course_numbers(pixel, sample, seed, count):
-    """Returns the numbers that shaders/coursework/start.comp draws."""
-    of_sample = pcg((sample + pcg((pixel + pcg(seed)) % 2**32)) % 2**32)
-    return [(pcg((dimension + of_sample) % 2**32) >> 8) / 2**24 for dimension in range(1, count + 1)]
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -100,13 +100,10 @@ class Edits(SceneTest):
 
     def test_verdicts(self):
         for light, smallest, words in (
-                (pt.Light.EQUAL_BITS, 0.004, "same bits as the built-in kernel"),
                 (pt.Light.SAME, 0.00512, "same light as the built-in kernel to 0.51%"),
-                (pt.Light.DIFFERENT, 0.004, "different light: -3.1% +- 0.4% of the picture in G"),
                 (pt.Light.UNDECIDED, 0.031, "not enough samples yet: a change of 3.1% could be hidden"),
                 (pt.Light.UNDECIDED, np.inf, "not enough samples yet: any change could be hidden")):
-            self.assertEqual(verdict_of(pt.Comparison(light, 1, smallest, smallest, 1e-6,
-                                                      "different light: -3.1% +- 0.4% of the picture in G", ())), words)
+            self.assertEqual(verdict_of(pt.Comparison(light, 1, smallest, smallest, 1e-6, "", ())), words)
 
     def edit_kernel(self, page):
         files = page.ask({"list": True})["files"]
