@@ -39,28 +39,18 @@ class FarAway(unittest.TestCase):
             self.assertEqual(len(Staged.of(whole, Options(**options)).drawn.centers), 6)
 
     def test_up_to_a_two_hundredth_is_left_out_and_no_corner_of_the_rest(self):
-        for count, left in ((10, 0), (11, 11)):
-            far = RANDOM.uniform(50, 90, (count, 3))
-            drawn = drawn_of(np.vstack([far, CUBE]))
-            self.assertEqual(len(drawn.centers), len(CUBE) + left)
-            self.assertEqual(len(drawn.notes), 1 - left // 11)
-        few = np.vstack([CUBE[:3], [[900, 0, 0]]])
-        self.assertEqual(len(drawn_of(few).centers), 4)
-        self.assertEqual(len(drawn_of(np.vstack([CUBE[:1], few])).centers), 4)
-
-    def test_usual_spreads_are_whole(self):
+        """A ball as large as all others together stays."""
+        far, few = RANDOM.uniform(50, 90, (11, 3)), np.vstack([CUBE[:3], [[900, 0, 0]]])
         gaussian = RANDOM.normal(size=(5000, 3))
         disc = RANDOM.exponential(size=(5000, 1)) * gaussian / np.linalg.norm(gaussian, axis=1)[:, None]
-        near = np.vstack([CUBE, [[3.8, 0, 0]]])
-        for positions in (gaussian, disc, near, CUBE[:1], CUBE[:2] * 1e3):
-            drawn = drawn_of(positions)
-            self.assertEqual((len(drawn.centers), drawn.notes), (len(positions), []))
-
-    def test_a_ball_as_large_as_all_others_together_stays(self):
-        positions, radii = np.vstack([CUBE, [[60, 0, 0]]]), np.full(2001, 0.1)
-        for radius, count in ((0.5, 2000), (50, 2001)):
-            radii[-1] = radius
-            self.assertEqual(len(drawn_of(positions, radius=radii).centers), count)
+        one = np.vstack([CUBE, [[60, 0, 0]]])
+        small, large = (np.append(np.full(2000, 0.1), radius) for radius in (0.5, 50))
+        for positions, radius, count in ((np.vstack([far[:10], CUBE]), 0.1, 2000), (np.vstack([far, CUBE]), 0.1, 2011), (few, 0.1, 4),
+                                         (np.vstack([CUBE[:1], few]), 0.1, 4), (one, small, 2000), (one, large, 2001), (gaussian, 0.1, 5000),
+                                         (disc, 0.1, 5000), (np.vstack([CUBE, [[3.8, 0, 0]]]), 0.1, 2001), (CUBE[:1], 0.1, 1),
+                                         (CUBE[:2] * 1e3, 0.1, 2)):
+            drawn = drawn_of(positions, radius=radius)
+            self.assertEqual((len(drawn.centers), len(drawn.notes)), (count, int(count < len(positions))))
 
     def test_only_particles_that_are_shown_count(self):
         particles = Particles(np.vstack([CUBE, CUBE + 1000]), {"kind": np.repeat([0, 1], 2000)})
@@ -91,33 +81,22 @@ class Cells(unittest.TestCase):
             self.assertEqual(drawn_of(CUBE + 5, cell, box=box).cell is not None, is_drawn, (cell, box))
 
     def test_particles_outside_are_counted_along_periodic_edges(self):
-        inside = CUBE[:80] + 5
-        for shift, told in (((10, 0, 0), True), ((0, -10, 0), True), ((0, 0, 10), False), ((0.5, 0.5, 0), False)):
-            notes = drawn_of(np.vstack([inside, CUBE[80:100] + 5 + shift]), TEN).notes
-            self.assertEqual(notes, ["20 of 100 particles are outside of their periodic cell: --wrap (wrap=True) brings them "
-                                     "back"] * told)
-        few = np.vstack([inside, CUBE[80:88] + (15, 5, 5)])
-        self.assertEqual(drawn_of(few, TEN).notes, [])
-        for beyond, told in ((0.05, 0), (0.15, 1)):
-            self.assertEqual(len(drawn_of(np.vstack([few, CUBE[:20] * 0.01 + (5, 10 + beyond, 5)]), TEN).notes), told)
+        drifted, strays, near = CUBE[80:100] + 5, CUBE[80:88] + (15, 5, 5), CUBE[:20] * 0.01
+        for outside, told in ((drifted + (10, 0, 0), 1), (drifted - (0, 10, 0), 1), (drifted + (0, 0, 10), 0), (drifted + (0.5, 0.5, 0), 0),
+                              (strays, 0), (near + (5, 10.05, 5), 0), (near + (5, 10.15, 5), 1)):
+            notes = drawn_of(np.vstack([CUBE[:80] + 5, outside]), TEN).notes
+            self.assertEqual(notes, ["20 of 100 particles are outside of their periodic cell: --wrap (wrap=True) brings them back"] * told)
         self.assertEqual(drawn_of(CUBE + 15, TEN, box="none").notes, [])
         self.assertEqual(drawn_of(CUBE * 2 + 15, TEN, wrap=True).notes, [])
 
-    def test_a_cell_far_from_its_particles_is_not_drawn(self):
+    def test_a_cell_far_from_its_particles_or_much_larger_is_not_drawn(self):
         chain = np.arange(8.0)[:, None] * (3, 2, 0) + (872, -495, 2.5)
-        drawn = drawn_of(chain, TEN)
-        self.assertIsNone(drawn.cell)
-        self.assertEqual([note[:25] for note in drawn.notes], ["8 of 8 particles are outs", "the cell is not drawn: mo"])
-        self.assertIsNotNone(drawn_of(chain, TEN, box="lines").cell)
-        for count, is_drawn in ((50, True), (51, False)):
-            positions = np.vstack([CUBE[:count] * 2 + (15, 5, 5), CUBE[count:100] * 2 + 5])
-            self.assertEqual(drawn_of(positions, TEN).cell is not None, is_drawn)
-
-    def test_a_cell_much_larger_than_its_particles_is_not_drawn(self):
-        for radius, is_drawn in ((0.52, True), (0.48, False)):
-            drawn = drawn_of([[5.0, 5, 5]], TEN, radius=radius)
-            self.assertEqual((drawn.cell is not None, len(drawn.notes)), (is_drawn, 1 - is_drawn))
-            self.assertIsNotNone(drawn_of([[5.0, 5, 5]], TEN, radius=radius, box="lines").cell)
+        half, most = (np.vstack([CUBE[:count] * 2 + (15, 5, 5), CUBE[count:100] * 2 + 5]) for count in (50, 51))
+        for positions, radius, is_drawn, notes in ((chain, 0.1, False, 2), (half, 0.1, True, 1), (most, 0.1, False, 2),
+                                                   ([[5, 5, 5]], 0.52, True, 0), ([[5, 5, 5]], 0.48, False, 1)):
+            drawn = drawn_of(positions, TEN, radius=radius)
+            self.assertEqual((drawn.cell is not None, len(drawn.notes)), (is_drawn, notes))
+            self.assertIsNotNone(drawn_of(positions, TEN, radius=radius, box="lines").cell)
 
 
 class Blank(unittest.TestCase):

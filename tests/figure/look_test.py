@@ -1,7 +1,6 @@
 import unittest
 
 import numpy as np
-import pt
 from pt.figures import _elements as elements
 from pt.figures._colors import Swatches, colors_of, distinct_colors
 from pt.figures._compose import compose, lay_over
@@ -178,10 +177,3 @@ class Background(unittest.TestCase):
         np.testing.assert_allclose(lay_over(light, alpha, np.zeros(3))[..., 0], [[0.375, 0, 0, 0.75]], atol=1e-15)
         brighter, _ = compose(radiance, stage, shares, 1.0)
         np.testing.assert_allclose(brighter[0, 3], 1.0)
-
-    def test_pictures(self):
-        with pt.Context() as context:
-            def picture(**options):
-                return pt.figure(POSITIONS[:50], size=(40, 30), samples=4, context=context, **options).to_srgb8()
-            for background, expected in (("white", [255] * 3), ("#306090", [48, 96, 144]), ("transparent", [0] * 4)):
-                self.assertEqual(picture(background=background)[0, 0].tolist(), expected)

@@ -68,16 +68,15 @@ class Paper(unittest.TestCase):
         self.assertEqual(clear.to_srgb8()[row, round(MARGIN * 200) + 5].tolist(), [0x22, 0x22, 0x22, 255])
 
     def test_the_bar_has_its_colors_in_order(self):
-        for background, channels in (("white", 3), ("transparent", 4)):
+        for background, corner in (("white", [255] * 3), ("#306090", [48, 96, 144]), ("transparent", [0] * 4)):
             picture = self.figure(color="v", colorbar=True, size=(240, 160), background=background, title="$E$ / eV").to_srgb8()
-            self.assertEqual(picture.shape, (160, 240, channels))
+            self.assertEqual((picture.shape[:2], picture[0, 0].tolist(), picture[0, -1].tolist()), ((160, 240), corner, corner))
             strip = picture[:, -60:, :3].astype(int)
             best = max(range(60), key=lambda x: len({tuple(c) for c in strip[:, x]} & {tuple(c) for c in TABLE}))
             found = [TABLE.index(c) for c in strip[:, best].tolist() if c in TABLE]
             self.assertGreater(len(found), 80)
             self.assertEqual(found, sorted(found, reverse=True))
             self.assertTrue(found[-1] < 5 and found[0] > 250)
-        self.assertEqual(picture[0, -1].tolist(), [0, 0, 0, 0])
         plain = self.figure(colorbar=True, size=(64, 48))
         self.assertEqual((plain.shape, plain.legend), ((48, 64, 3), None))
 

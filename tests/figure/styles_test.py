@@ -62,6 +62,8 @@ class Kinds(unittest.TestCase):
         with pt.Context() as context:
             pictures = [pt.figure(peptide(), style=style, size=(32, 24), samples=2, context=context).to_srgb8() for style in STYLES]
         self.assertGreaterEqual(len({picture.tobytes() for picture in pictures}), 8)
+        layout = Staged.of(peptide(), Options(style="cover")).layout
+        self.assertTrue(layout.camera.aperture > 0.0 and layout.stage.material.glossiness > 0.0 and layout.stage.floor)
 
 
 class Crystals(unittest.TestCase):
@@ -139,34 +141,30 @@ class Floors(unittest.TestCase):
 
 
 class Outlines(unittest.TestCase):
-    def drawn(self, centers, **options):
-        figure = pt.figure(np.array(centers), radius=1.0, view="front", projection="orthographic", size=(96, 64), samples=2,
-                           outlines=True, **options)
+    def drawn(self, balls, **options):
+        figure = pt.figure(balls, radius=1.0, view="front", projection="orthographic", size=(96, 64), samples=2, outlines=True, **options)
         return figure._shares.outlines
 
     def test_larger_steps_have_wider_lines(self):
         """The step between the balls, 0.4 of a radius, has a line in matte, and none in soft."""
-        pair = [[-0.9, -1.0, 0], [0.9, 0, 0]]
+        pair = np.array([[-0.9, -1.0, 0], [0.9, 0, 0]])
         plain, stepped = (self.drawn(pair, style=style) for style in ("matte", "soft"))
         middle = slice(28, 36), slice(40, 56)
         self.assertGreater(plain[middle].max(), 0.5)
         self.assertEqual(stepped[middle].max(), 0.0)
         self.assertGreater(stepped.sum(), 1.2 * plain.sum())
-        near = self.drawn([[-0.5, -4.0, 0], [0.5, 0, 0]], style="soft")
-        far = self.drawn([[-0.5, -40.0, 0], [0.5, 0, 0]], style="soft")
+        near, far = (self.drawn(np.array([[-0.5, -away, 0], [0.5, 0, 0]]), style="soft") for away in (4.0, 40.0))
         self.assertGreater(far[20:44, 44:72].sum(), 1.3 * near[20:44, 44:72].sum())
 
     def test_chains_have_borders(self):
         pair = np.array([[-0.7, 0.0, 0], [0.7, 0, 0]])
         for chains, is_there in ((["A", "A"], False), (["A", "B"], True)):
-            particles = Particles(pair, {"chain": np.array(chains)})
-            figure = pt.figure(particles, radius=1.0, view="front", projection="orthographic", size=(96, 64), samples=2,
-                               style="illustrative")
-            self.assertEqual(bool(figure._shares.outlines[28:36, 44:52].max() > 0.5), is_there)
-            self.assertGreater(figure._shares.outlines.max(), 0.9)
+            outlines = self.drawn(Particles(pair, {"chain": np.array(chains)}), style="illustrative")
+            self.assertEqual(bool(outlines[28:36, 44:52].max() > 0.5), is_there)
+            self.assertGreater(outlines.max(), 0.9)
 
     def test_translucent_balls_have_none(self):
-        outlines = self.drawn([[-2.0, 0, 0], [2.0, 0, 0]], opacity=np.array([1.0, 0.3]))
+        outlines = self.drawn(np.array([[-2.0, 0, 0], [2.0, 0, 0]]), opacity=np.array([1.0, 0.3]))
         self.assertGreater(outlines[:, :48].max(), 0.5)
         self.assertEqual(outlines[:, 48:].max(), 0.0)
 
@@ -174,11 +172,3 @@ class Outlines(unittest.TestCase):
         figure = pt.figure(np.zeros((1, 3)), radius=1.0, size=(64, 64), samples=2, style="illustrative", color="#c04020")
         ink = figure._shares.ink[32, 32]
         np.testing.assert_allclose(ink, 0.2 * linear(np.array([0xc0, 0x40, 0x20]) / 255), rtol=0.02)
-
-
-class Covers(unittest.TestCase):
-    def test_a_cover_has_a_lens_a_floor_and_gloss(self):
-        staged = Staged.of(Particles(np.random.default_rng(2).normal(size=(30, 3))), Options(style="cover"))
-        self.assertGreater(staged.layout.camera.aperture, 0.0)
-        self.assertGreater(staged.layout.stage.material.glossiness, 0.0)
-        self.assertIsNotNone(staged.layout.stage.floor)

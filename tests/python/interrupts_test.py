@@ -41,16 +41,6 @@ class Interrupts(unittest.TestCase):
             ready(fresh).accumulate(8)
             np.testing.assert_array_equal(self.context.readback(), fresh.readback())
 
-    def test_progress_grows_to_1(self):
-        for call in (lambda tell: self.context.set_scene(many_spheres(), tell),
-                     lambda tell: self.context.accumulate(2, progress=tell)):
-            told = []
-            self.assertIs(call(told.append), pt.Result.OK)
-            self.assertEqual(told, sorted(told))
-            self.assertEqual(told[-1], 1.0)
-            self.assertGreaterEqual(told[0], 0.0)
-            self.context.set_scene(SCENE)
-
     def test_true_alone_stops(self):
         self.context.accumulate(4)
         film = self.context.film()

@@ -136,18 +136,6 @@ class Browser(unittest.TestCase):
         self.browser.until(f"{CAMERA} === {json.dumps(before)}")
         self.assertEqual(pt.load(self.downloaded("scene", "coursework.json")).settings.width, 256)
 
-    def test_on_a_phone_the_picture_comes_first(self):
-        self.browser.call("Emulation.setDeviceMetricsOverride", width=400, height=800, deviceScaleFactor=2, mobile=True)
-        self.addCleanup(lambda: self.browser.call("Emulation.setDeviceMetricsOverride", width=1400, height=860, deviceScaleFactor=1,
-                                                  mobile=False))
-        self.open(samples=64, shader_dir=self.kernels)
-        self.browser.until(f"document.querySelector('#text .cm-line') && {SAMPLES} === 64")
-        self.tap(100, 100)
-        self.browser.until(PIXEL)
-        tops = [self.box(name)[1] for name in ("stage", "pixel", "name", "editor", "layers")]
-        self.assertEqual((tops[0], tops), (0, sorted(tops)))
-        self.assertEqual(self.browser.value("document.documentElement.scrollWidth"), 400)
-
     def test_a_course_has_a_verdict_and_paths_of_tapped_pixels(self):
         folder = self.folder / "course"
         subprocess.run([PROGRAM, "course", folder], check=True)
