@@ -31,14 +31,11 @@ pt_add_tests(
   geometry/sphere_order_test.cpp
   geometry/sphere_tree_test.cpp
   geometry/twins_test.cpp
-  kernel/gpu_layout_test.cpp
-  kernel/own_kernel_clock_test.cpp
   kernel/scene_blocks_test.cpp
   kernel/scene_features_test.cpp
   kernel/schedule_test.cpp
   kernel/specialised_code_test.cpp
-  light/lamp_tree_test.cpp
-  light/light_spots_test.cpp
+  light/lamp_words_test.cpp
   light/point_sequence_test.cpp
   light/small_lamps_test.cpp
   vulkan/device_choice_test.cpp
@@ -82,7 +79,6 @@ pt_add_tests(
   film/split_over_devices_test.cpp
   geometry/first_hit_test.cpp
   kernel/probe.cpp
-  kernel/render_device_test.cpp
   kernel/trace_pipelines_test.cpp
   vulkan/borrowed_device_test.cpp
   vulkan/device_test.cpp
@@ -114,7 +110,6 @@ if(NOT PT_SANITIZE)
             light/lamp_choice_test.cpp
             light/opacity_test.cpp
             light/random_light_test.cpp
-            light/sampler_sobol_test.cpp
             light/sampler_test.cpp
             light/spot_test.cpp
   )

@@ -9,9 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
-#include <random>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace opacity {
@@ -64,22 +62,8 @@ Given::Capsule ball_at(const glm::dvec3 &center, double radius, float opacity) {
     return {{center.x, center.y, center.z}, {center.x, center.y, center.z}, radius, 1, opacity};
 }
 
-Given cloud(std::uint32_t count) {
-    std::mt19937 engine(5);
-    const auto uniform = [&](double low, double high) {
-        return low + (high - low) * std::generate_canonical<double, 53>(engine);
-    };
-    Given given;
-    given.camera = camera_at({0, 0, 8}, {0, 0, 0}, 0.5);
-    given.spheres.push_back({{3, 5, 1}, 1.5, {0, 0, 0}, 2, 0});
-    for (std::uint32_t i = 0; i < count; ++i) {
-        Given::Capsule each{{uniform(-2, 2), uniform(-1.2, 1.5), uniform(-2, 2)}, {0, 0, 0}, uniform(0.1, 0.5), i % 2};
-        for (int axis = 0; axis < 3; ++axis)
-            each.end[axis] = each.center[axis] + (i % 3 == 0 ? uniform(-0.5, 0.5) : 0.0);
-        each.opacity = i % 5 == 0 ? 1.0F : static_cast<float>(uniform(0.0, 1.0));
-        given.capsules.push_back(each);
-    }
-    return given;
+Given::Capsule rod(const glm::dvec3 &from, const glm::dvec3 &to, float opacity, std::uint32_t material = 1) {
+    return {{from.x, from.y, from.z}, {to.x, to.y, to.z}, 1.0, material, opacity};
 }
 
 // Five standard errors of 98,304 rays are at most .008. Negative control: opacities that are larger by 3%.
@@ -98,36 +82,32 @@ TEST_F(Opacity, IsTheShareOfRaysThatMeet) {
     EXPECT_NEAR(passed(0.0F, 0.0F), 1.0, 1e-6);
 }
 
-TEST_F(Opacity, OfTwoSpheresIsIndependent) {
-    const auto passed = [&](const glm::dvec3 &second, double radius, double extent) {
-        return share_passed(
-            {ball_at({0, 0, 1}, 1.0, 0.5F), ball_at(second, radius, 0.5F), ball_at({extent, 0, 0}, 1.0, 0.0F)});
-    };
-    EXPECT_NEAR(passed({0, 0, 1}, 1.5, 4.0), 0.25, 0.008);
-    for (double extent = 4.0; extent < 100.0; extent *= 2.0) {
-        EXPECT_NEAR(passed({0, 0, -1}, 1.0, extent), 0.25, 0.008) << extent;
-        EXPECT_NEAR(passed({0, 0.5, 1}, 1.0, extent), 0.25, 0.008) << extent;
-        EXPECT_NEAR(passed({0.5, 0, 1}, 1.0, extent), 0.25, 0.008) << extent;
-    }
-}
-
-Given::Capsule rod(const glm::dvec3 &from, const glm::dvec3 &to, float opacity, std::uint32_t material = 1) {
-    return {{from.x, from.y, from.z}, {to.x, to.y, to.z}, 1.0, material, opacity};
-}
-
 // The transmitted fractions multiply, even if the surfaces differ in one number. Negative control: duplicates, which
 // count once.
 TEST_F(Opacity, OfSurfacesThatDifferIsIndependent) {
     const glm::dvec3 atom(0, 0, 1);
-    const std::vector<Given::Capsule> bonds{rod(atom, {2, 0, 1}, 0.5F), rod(atom, {0, 2, 1}, 0.5F)};
-    EXPECT_NEAR(share_passed(bonds), 0.25, 0.008);
-    EXPECT_NEAR(share_passed({bonds[0], rod({2, 0, 1}, atom, 0.5F)}), 0.25, 0.008) << "swapped ends";
-    EXPECT_NEAR(share_passed({bonds[0], rod(atom, {-2, 0, 1}, 0.5F)}), 0.25, 0.008) << "opposite";
-    EXPECT_NEAR(share_passed({bonds[0], rod(atom, {4, 0, 1}, 0.5F)}), 0.25, 0.008) << "a longer one";
-    EXPECT_NEAR(share_passed({bonds[0], ball_at(atom, 1.0, 0.5F)}), 0.25, 0.008) << "an atom and its bond";
-    EXPECT_NEAR(share_passed({rod({-2, 0, 1}, atom, 0.5F), bonds[0]}), 0.25, 0.008) << "halves of a bond";
-    EXPECT_NEAR(share_passed({bonds[0], rod(atom, {2, 0, 1}, 0.5F, 0)}), 0.25, 0.008) << "materials";
-    EXPECT_NEAR(share_passed({bonds[0], bonds[0]}), 0.5, 0.008) << "duplicates";
+    const Given::Capsule bond = rod(atom, {2, 0, 1}, 0.5F);
+    const Given::Capsule ball = ball_at(atom, 1.0, 0.5F);
+    const struct {
+        const char *what;
+        Given::Capsule first, second;
+    } pairs[] = {{"directions", bond, rod(atom, {0, 2, 1}, 0.5F)},
+                 {"swapped ends", bond, rod({2, 0, 1}, atom, 0.5F)},
+                 {"opposite", bond, rod(atom, {-2, 0, 1}, 0.5F)},
+                 {"a longer one", bond, rod(atom, {4, 0, 1}, 0.5F)},
+                 {"an atom and its bond", bond, ball},
+                 {"halves of a bond", rod({-2, 0, 1}, atom, 0.5F), bond},
+                 {"materials", bond, rod(atom, {2, 0, 1}, 0.5F, 0)},
+                 {"radii", ball, ball_at(atom, 1.5, 0.5F)}};
+    for (const auto &[what, first, second] : pairs)
+        EXPECT_NEAR(share_passed({first, second}), 0.25, 0.008) << what;
+    EXPECT_NEAR(share_passed({bond, bond}), 0.5, 0.008) << "duplicates";
+    // The extent of all spheres decides the steps of their places.
+    for (double extent = 4.0; extent < 100.0; extent *= 2.0)
+        for (const glm::dvec3 &place : {glm::dvec3(0, 0, -1), {0, 0.5, 1}, {0.5, 0, 1}})
+            EXPECT_NEAR(share_passed({ball, ball_at(place, 1.0, 0.5F), ball_at({extent, 0, 0}, 1.0, 0.0F)}), 0.25,
+                        0.008)
+                << extent;
 
     std::vector<Given::Capsule> star;
     for (int i = 0; i < 8; ++i)
@@ -164,103 +144,64 @@ TEST_F(Opacity, OfColorsAndMotionsIsIndependent) {
 
 // Every 16 consecutive points of a pixel's 256 fall into 16 equal intervals. The number of blocked rays then has a
 // standard deviation of at most 2, and every pixel must be within five standard deviations. Negative control: random
-// numbers, whose standard deviation is 8.
-TEST_F(Opacity, OfOneSurfaceIsEvenlySpread) {
-    Given given = under_sky({ball_at({0, 0, 1}, 1.0, 0.4F)});
-    std::ranges::fill(given.materials[2].emission, 1.0F);
-    const auto largest_error = [&](std::uint32_t sampler) {
-        double largest = 0.0;
-        for (const float value : render_image(context(), given.scene(), given.camera, picture_of(sampler), 256))
-            largest = std::max(largest, std::abs(value - 0.6));
-        return largest;
-    };
-    EXPECT_LE(largest_error(PT_SAMPLER_SOBOL), 10.0 / 256.0);
-    EXPECT_LE(largest_error(PT_SAMPLER_HALTON_CP), 10.0 / 256.0);
-    EXPECT_GT(largest_error(PT_SAMPLER_RANDOM), 20.0 / 256.0);
-}
-
-// Only the first branch of a path casts the shadow ray.
-TEST_F(Opacity, OfOneSurfaceIsEvenlySpreadOverShadowRays) {
-    Given given;
-    std::ranges::fill(given.materials[0].diffuse, 0.0F);
-    given.spheres = {{{0, 50, 0}, 0.1, {0, 0, 0}, 2, 0}};
-    given.camera = camera_at({0, 3, 4}, {0, -1.5, 0}, 0.05);
-    const auto light = [&](float opacity, std::uint32_t sampler) {
-        given.capsules = {ball_at({0, 10, 0}, 1.0, opacity)};
-        given.capsules.front().material = 0;
-        return render_image(context(), given.scene(), given.camera, picture_of(sampler), 256);
-    };
-    const std::vector<float> clear = light(0.0F, PT_SAMPLER_SOBOL);
-    const auto largest_error = [&](std::uint32_t sampler) {
-        const std::vector<float> veiled = light(0.4F, sampler);
-        double largest = 0.0;
-        for (std::size_t i = 0; i < clear.size(); ++i)
-            largest = std::max(largest, std::abs(veiled[i] / clear[i] - 0.6));
-        return largest;
-    };
-    EXPECT_LE(largest_error(PT_SAMPLER_SOBOL), 10.0 / 256.0);
-    EXPECT_LE(largest_error(PT_SAMPLER_HALTON_CP), 10.0 / 256.0);
-    EXPECT_GT(largest_error(PT_SAMPLER_RANDOM), 20.0 / 256.0);
-}
-
-// Returns the variance of the product of two decisions over lattices (i / N, r i / N) of N = 2^m points, with random
-// shifts and random odd r. A frequency that is 2^v times an odd number contributes only if the other frequency has the
-// same v, and then only in 2^(v + 1) of N lattices. For one decision, the frequencies that are multiples of 2^v have
-// the variance t (1 - t) / 4^v, where t is the fractional part of 2^v times the opacity. If only one decision varies,
-// only the multiples of N count.
-double variance_of_two(double opacity, std::uint32_t count) {
-    const auto of_multiples = [&](double step) {
-        const double fraction = step * opacity - std::floor(step * opacity);
-        return fraction * (1.0 - fraction) / (step * step);
-    };
-    double sum = 0.0;
-    for (double step = 1.0; step < count; step *= 2.0) {
-        const double of_odd_multiples = of_multiples(step) - of_multiples(2.0 * step);
-        sum += 2.0 * step * of_odd_multiples * of_odd_multiples;
+// numbers, whose standard deviation is 8. Only the first branch of a path casts the shadow ray.
+TEST_F(Opacity, OfOneSurfaceIsEvenlySpreadOverRaysOfCamerasAndShadows) {
+    const Given seen = under_sky({ball_at({0, 0, 1}, 1.0, 0.4F)});
+    Given shadow;
+    std::ranges::fill(shadow.materials[0].diffuse, 0.0F);
+    shadow.spheres = {{{0, 50, 0}, 0.1, {0, 0, 0}, 2, 0}};
+    shadow.camera = camera_at({0, 3, 4}, {0, -1.5, 0}, 0.05);
+    shadow.capsules = {ball_at({0, 10, 0}, 1.0, 0.4F)};
+    shadow.capsules.front().material = 0;
+    for (const Given &given : {seen, shadow}) {
+        const auto image_by = [&](const Given &of, std::uint32_t sampler) {
+            return render_image(context(), of.scene(), of.camera, picture_of(sampler), 256);
+        };
+        Given clear = given;
+        clear.capsules.front().opacity = 0.0F;
+        const std::vector<float> light = image_by(clear, PT_SAMPLER_SOBOL);
+        const auto largest_error = [&](std::uint32_t sampler) {
+            const std::vector<float> veiled = image_by(given, sampler);
+            double largest = 0.0;
+            for (std::size_t i = 0; i < light.size(); ++i)
+                largest = std::max(largest, std::abs(veiled[i] / light[i] - 0.6));
+            return largest;
+        };
+        EXPECT_LE(largest_error(PT_SAMPLER_SOBOL), 10.0 / 256.0);
+        EXPECT_LE(largest_error(PT_SAMPLER_HALTON_CP), 10.0 / 256.0);
+        EXPECT_GT(largest_error(PT_SAMPLER_RANDOM), 20.0 / 256.0);
     }
-    const double clear = 1.0 - opacity;
-    return sum / count + 2.0 * clear * clear * of_multiples(count);
 }
 
-// Every 16 samples have another lattice. The mean square over 6,144 pixels must be within five standard errors of the
-// expected value. The stated error may be a tenth too small. Negative control: one lattice for all pixels.
+// Every 16 samples have another lattice, so the mean square over 6,144 pixels falls like that of independent samples.
+// The stated error may be a tenth too small. Negative control: one lattice for all samples.
 TEST_F(Opacity, OfTwoSurfacesHasManyLattices) {
     Given given = under_sky({ball_at({0, 0, 2}, 1.0, 0.4F), ball_at({0, 0, -2}, 1.0, 0.4F)});
     std::ranges::fill(given.materials[2].emission, 1.0F);
     pt_render render = picture_of(PT_SAMPLER_SOBOL);
     render.width = 96;
     render.height = 64;
-    for (const std::uint32_t count : {16U, 32U, 64U, 256U, 1024U}) {
-        double sum = 0.0, sum_of_squares = 0.0;
-        const std::vector<float> values = render_image(context(), given.scene(), given.camera, render, count);
-        for (const float value : values) {
-            const double square = (value - 0.36) * (value - 0.36);
-            sum += square / static_cast<double>(values.size());
-            sum_of_squares += square * square / static_cast<double>(values.size());
-        }
-        const double standard_error = std::sqrt((sum_of_squares - sum * sum) / (render.width * render.height));
-        EXPECT_NEAR(sum, variance_of_two(0.4, 16) * 16.0 / count, 5.0 * standard_error) << count;
-        EXPECT_GT(error().rmse, 0.9 * std::sqrt(sum)) << count;
+    statistics::Moments first{};
+    for (const std::uint32_t count : {16U, 64U, 1024U}) {
+        std::vector<double> squares;
+        for (const float value : render_image(context(), given.scene(), given.camera, render, count))
+            squares.push_back((value - 0.36) * (value - 0.36) * count);
+        const statistics::Moments found = statistics::moments(squares);
+        if (count == 16)
+            first = found;
+        const double standard_error = std::sqrt((first.variance + found.variance) / (render.width * render.height));
+        EXPECT_NEAR(found.mean, first.mean, 5.0 * standard_error) << count;
+        EXPECT_GT(error().rmse, 0.9 * std::sqrt(found.mean / count)) << count;
     }
 }
 
-Given shells() {
-    Given given = cloud(20);
-    for (const auto &[height, radius] : {std::pair(0.0, 2.0), {0.0, 1.2}, {-1.5, 1.8}, {-0.5, 3.0}})
-        given.capsules.push_back(ball_at({0.2, height, 0.1}, radius, 0.5F));
-    given.capsules.push_back(ball_at({0, 0, 8}, 2.0, 0.5F));
-    return given;
-}
-
-TEST_F(Opacity, LeavesPlanesOpaque) {
-    Given given = shells();
-    given.spheres[0].center[1] = -4.0;
-    const std::vector<float> radiance = image(given, 64);
-    EXPECT_EQ(std::ranges::count(radiance, 0.0F), static_cast<std::ptrdiff_t>(radiance.size()));
-}
-
 TEST_F(Opacity, LeavesNoBitToChance) {
-    Given given = cloud(60); // capsules and spheres
+    Given given = random_scene(5, 60, 6, 8.0);
+    for (std::size_t i = 0; i < given.capsules.size(); ++i) {
+        given.capsules[i].opacity = static_cast<float>(i % 6) / 5.0F;
+        if (i % 3 > 0)
+            std::ranges::copy(given.capsules[i].center, given.capsules[i].end);
+    }
     given.camera.aperture = 0.5;
     given.camera.focus = 7.0;
     const std::vector<float> whole = image(given, 16);
@@ -272,16 +213,16 @@ TEST_F(Opacity, LeavesNoBitToChance) {
 }
 
 TEST_F(Opacity, IsRefusedWithTheReason) {
-    Given given = cloud(6);
+    Given given = random_scene(5, 6, 0, 8.0);
     const auto refusal = [&] {
         const pt_scene scene = given.scene();
         EXPECT_EQ(pt_set_scene(context(), &scene), PT_ERROR_INVALID_SCENE);
         return std::string(pt_last_error(context()));
     };
+    given.capsules[1].opacity = 0.9F;
     given.capsules[4].opacity = 1.5F;
     EXPECT_NE(refusal().find("sphere_arrays[0].opacity[4] = 1.5: must lie in [0, 1]"), std::string::npos);
     given.capsules[4].opacity = 0.5F;
-    given.capsules[1].opacity = 0.9F;
     given.materials[1].flags = PT_MATERIAL_HIDDEN_FROM_CAMERA;
     EXPECT_NE(refusal().find("sphere_arrays[0].material[1] = 1: must be a material that neither emits nor is hidden"),
               std::string::npos);

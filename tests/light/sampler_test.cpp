@@ -1,32 +1,112 @@
-#include "tests/light/sample_numbers.h"
+#include "lib/points/point_sequence.h"
+#include "sample_numbers.spv.h"
+#include "shaders/specialization.h"
+#include "tests/kernel/probe.h"
 #include "tests/support/numbers_of.h"
+#include "tests/support/statistics.h"
 
 #include <gtest/gtest.h>
+#include <pt/pt.h>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <numeric>
 #include <string>
 #include <vector>
 
-using namespace sample_numbers;
+namespace sample_numbers {
 
 namespace {
 
-class Sampler : public testing::TestWithParam<std::uint32_t> {};
+struct Request {
+    glm::uvec2 seed{1, 2};
+    std::uint32_t first_pixel = 0;
+    std::uint32_t pixel_count = 1;
+    std::uint32_t first_sample = 0;
+    std::uint32_t sample_count = 1;
+    std::uint32_t block = 0;
+    std::uint32_t branch = 0;
 
-TEST_P(Sampler, StaysBelowOneAtTheLargestIndices) {
-    Request request;
-    request.pixel_count = 64;
-    request.sample_count = 64;
-    for (const std::uint32_t first : {0U, (1U << 24) - 32, 0xffffffffU - 63})
-        for (const std::uint32_t pixel : {0U, 0xffffffffU - 63}) {
-            request.first_sample = first;
-            request.first_pixel = pixel;
-            for (const std::uint32_t block : {0U, table_blocks - 1, table_blocks, 5000U}) {
-                request.block = block;
-                take(GetParam(), request);
-            }
-        }
+    std::uint32_t invocations() const { return pixel_count * sample_count; }
+};
+
+// Numbers times 2^24, pixel by pixel.
+using Blocks = std::vector<glm::uvec4>;
+using Numbers = std::vector<std::uint32_t>;
+using Table = std::vector<pt::PointBlock>;
+
+constexpr double scale = 16777216.0;
+constexpr std::uint32_t table_blocks = 4;
+constexpr std::uint32_t shared_blocks = 1;
+
+Blocks as_integers(const std::vector<glm::vec4> &numbers) {
+    Blocks blocks;
+    for (const glm::vec4 &block : numbers) {
+        const glm::dvec4 scaled = scale * glm::dvec4(block);
+        for (int i = 0; i < 4; ++i)
+            EXPECT_TRUE(scaled[i] >= 0.0 && scaled[i] < scale && scaled[i] == std::floor(scaled[i])) << block[i];
+        blocks.emplace_back(scaled);
+    }
+    return blocks;
 }
+
+Table table_of(std::uint32_t sampler, const Request &request, std::uint32_t branches = 1) {
+    Numbers indices(request.sample_count);
+    std::iota(indices.begin(), indices.end(), request.first_sample);
+    return pt::point_table(sampler, std::uint64_t{request.seed.x} << 32 | request.seed.y, indices,
+                           {Numbers(table_blocks, 4), shared_blocks, branches});
+}
+
+Blocks take_from(const Table &table, std::uint32_t sampler, const Request &request, std::uint32_t branches = 1) {
+    std::array<std::uint32_t, pt::gpu::CONSTANT_COUNT> constants{};
+    constants[pt::gpu::ID_SAMPLER] = sampler;
+    constants[pt::gpu::ID_TABLE_BLOCKS] = sampler == PT_SAMPLER_RANDOM ? 0 : table_blocks;
+    constants[pt::gpu::ID_BRANCH_COUNT] = branches;
+    constants[pt::gpu::ID_MAX_PATH_LENGTH] = 6000;
+    constants[pt::gpu::ID_POINT_BLOCKS] = probe_point_blocks;
+    Probe probe(sample_numbers_spirv(), sizeof request, constants);
+    probe.set_points(table);
+    return as_integers(probe.run<glm::vec4>({}, request.invocations(), request, request.invocations()));
+}
+
+Blocks take(std::uint32_t sampler, const Request &request, std::uint32_t branches = 1) {
+    const bool in_table = sampler != PT_SAMPLER_RANDOM && request.block < table_blocks;
+    return take_from(in_table ? table_of(sampler, request, branches) : Table{}, sampler, request, branches);
+}
+
+// The bound allows one false alarm in a million over at most 72 chi-squares.
+const double bound = statistics::normal_quantile(1e-6 / 72);
+
+// Counts the leading `bits` of numbers that belong together. Uniform and independent numbers fill all cells alike.
+double deviate(const std::vector<Numbers> &together, std::uint32_t bits) {
+    std::vector<double> observed(std::size_t{1} << (bits * together.size()));
+    for (std::size_t i = 0; i < together[0].size(); ++i) {
+        std::size_t cell = 0;
+        for (const Numbers &numbers : together)
+            cell = cell << bits | numbers[i] >> (24 - bits);
+        ++observed[cell];
+    }
+    const double expected = static_cast<double>(together[0].size()) / static_cast<double>(observed.size());
+    return statistics::chi_square_deviate(observed, std::vector<double>(observed.size(), expected));
+}
+
+double uniform_deviate(const Numbers &numbers) {
+    return deviate({numbers}, 8);
+}
+
+double pair_deviate(const Numbers &x, const Numbers &y) {
+    return deviate({x, y}, 6);
+}
+
+Numbers component(const Blocks &blocks, int which, std::size_t first = 0, std::size_t stride = 1) {
+    Numbers numbers;
+    for (std::size_t i = first; i < blocks.size(); i += stride)
+        numbers.push_back(blocks[i][which]);
+    return numbers;
+}
+
+class Sampler : public testing::TestWithParam<std::uint32_t> {};
 
 TEST_P(Sampler, StaysBelowOneForWordsOfAllOnes) {
     Request request;
@@ -64,71 +144,52 @@ TEST_P(Sampler, IsRandomBeyondTheTable) {
     EXPECT_EQ(blocks, take(PT_SAMPLER_RANDOM, request));
     EXPECT_LT(uniform_deviate(component(blocks, 1)), bound);
     EXPECT_LT(pair_deviate(component(blocks, 0, 0, 2), component(blocks, 0, 1, 2)), bound);
-    const Blocks one(blocks.begin(), blocks.begin() + request.sample_count);
-    const Blocks other(blocks.begin() + request.sample_count, blocks.end());
-    EXPECT_LT(pair_deviate(component(one, 2), component(other, 2)), bound);
+    const Numbers of_both = component(blocks, 2);
+    const auto middle = of_both.begin() + request.sample_count;
+    EXPECT_LT(pair_deviate({of_both.begin(), middle}, {middle, of_both.end()}), bound);
     --request.block;
     request.sample_count = 256;
     EXPECT_EQ(take(GetParam(), request) == take(PT_SAMPLER_RANDOM, request), GetParam() == PT_SAMPLER_RANDOM);
 }
 
-// The random numbers have no table, so the sample index B i + b of branch b of B may exceed 2^32.
-TEST(SamplerRandom, BranchesAreSamplesOfTheirOwn) {
-    constexpr std::uint32_t branches = 4;
-    Request request;
-    request.pixel_count = 64;
-    request.block = table_blocks;
-    const auto branch_of = [&](std::uint32_t sample, std::uint32_t branch) {
-        request.first_sample = sample;
-        request.branch = branch;
-        return take_from({}, PT_SAMPLER_RANDOM, request, branches);
-    };
-    const auto sample = [&](std::uint32_t index) {
-        request.first_sample = index;
-        request.branch = 0;
-        return take(PT_SAMPLER_RANDOM, request);
-    };
-    EXPECT_EQ(branch_of(5, 3), sample(23));
-    EXPECT_NE(branch_of(5, 3), sample(24));
-    EXPECT_EQ(branch_of(0x3fffffffU, 3), sample(0xffffffffU));
-    EXPECT_NE(branch_of(0x40000000U, 3), sample(3));
-}
-
 INSTANTIATE_TEST_SUITE_P(All, Sampler, testing::ValuesIn(numbers_of(&pt_render::sampler)),
                          [](const auto &param) { return "Number" + std::to_string(param.param); });
 
-TEST(SamplerHalton, IsTheRadicalInverseInEveryPixel) {
+// The random numbers have no table, so the sample index B i + b of branch b of B may exceed 2^32.
+TEST(SamplerRandom, BranchesAreSamplesOfTheirOwn) {
     Request request;
-    request.pixel_count = 16;
-    request.first_sample = 0xffffffffU - 255;
-    request.sample_count = 256;
-    for (request.block = 0; request.block < table_blocks; ++request.block) {
-        const Blocks blocks = take(PT_SAMPLER_HALTON, request);
-        for (std::uint32_t i = 0; i < request.invocations(); ++i)
-            for (std::uint32_t d = 0; d < 4; ++d)
-                ASSERT_EQ(blocks[i][static_cast<int>(d)],
-                          pt::radical_inverse(request.first_sample + i % 256, 4 * request.block + d) >> 8);
-    }
+    request.pixel_count = 64;
+    request.block = table_blocks;
+    const auto numbers = [&](std::uint32_t sample, std::uint32_t branch, std::uint32_t branches) {
+        request.first_sample = sample;
+        request.branch = branch;
+        return take(PT_SAMPLER_RANDOM, request, branches);
+    };
+    EXPECT_EQ(numbers(5, 3, 4), numbers(23, 0, 1));
+    EXPECT_NE(numbers(5, 3, 4), numbers(24, 0, 1));
+    EXPECT_EQ(numbers(0x3fffffffU, 3, 4), numbers(0xffffffffU, 0, 1));
+    EXPECT_NE(numbers(0x40000000U, 3, 4), numbers(3, 0, 1));
 }
 
-// Branch b of B has in sample i the numbers of sample B * i + b, in blocks behind the shared ones.
-TEST(SamplerHalton, OfABranchIsTheRadicalInverseOfASampleOfItsOwn) {
-    constexpr std::uint32_t branches = 4;
-    Request request;
-    request.pixel_count = 2;
-    request.first_sample = 0x40000000U - 8;
-    request.sample_count = 16;
-    const Table table = table_of(PT_SAMPLER_HALTON, request, branches);
-    for (request.block = shared_blocks; request.block < table_blocks; ++request.block)
-        for (request.branch = 0; request.branch < branches; ++request.branch) {
-            const Blocks blocks = take_from(table, PT_SAMPLER_HALTON, request, branches);
-            for (std::uint32_t i = 0; i < request.invocations(); ++i)
-                for (std::uint32_t d = 0; d < 4; ++d) {
+// Branch b of B has in sample i the numbers of sample B i + b, in blocks behind the shared ones.
+TEST(SamplerHalton, IsTheRadicalInverseInEveryPixel) {
+    for (const std::uint32_t branches : {1U, 4U})
+        for (std::uint32_t block = branches > 1 ? shared_blocks : 0; block < table_blocks; ++block)
+            for (std::uint32_t branch = 0; branch < branches; ++branch) {
+                Request request;
+                request.pixel_count = 2;
+                request.sample_count = 16;
+                request.first_sample = branches > 1 ? 0x40000000U - 8 : 0xffffffffU - 15;
+                request.block = block;
+                request.branch = branch;
+                const Blocks blocks = take(PT_SAMPLER_HALTON, request, branches);
+                for (std::uint32_t i = 0; i < request.invocations(); ++i) {
                     const std::uint64_t sample = std::uint64_t{request.first_sample} + i % request.sample_count;
-                    ASSERT_EQ(blocks[i][static_cast<int>(d)],
-                              pt::radical_inverse(branches * sample + request.branch, 4 * request.block + d) >> 8);
+                    for (std::uint32_t d = 0; d < 4; ++d)
+                        ASSERT_EQ(blocks[i][static_cast<int>(d)],
+                                  pt::radical_inverse(branches * sample + branch, 4 * block + d) >> 8);
                 }
-        }
+            }
 }
 
 // Each pixel shifts the numbers, digit by digit or modulo 1. Truncation to 24 bits may change them by one unit.
@@ -165,14 +226,34 @@ TEST(SamplerShifts, AreOneInEachPixelAndDimension) {
         }
 }
 
+// Point 0 is the origin, so its numbers consist of scramble and shift. The shift of a block is a word of the pixel
+// times the block's factor f. If a f1 + b f2 + c f3 = 0 for small integers a, b and c, the shifts of three blocks lie
+// on few planes. Then Russian roulette is wrong at low sample counts.
+TEST(SamplerShifts, AreIndependentAmongThreeBlocksOfAPath) {
+    for (const int which : {0, 1, 2}) {
+        std::array<Numbers, table_blocks> blocks;
+        Request request;
+        request.pixel_count = 1U << 14;
+        for (request.block = 0; request.block < table_blocks; ++request.block)
+            for (std::uint32_t seed = 0; seed < 16; ++seed) {
+                request.seed = {0x9e3779b9U * (seed + 1), 0x85ebca6bU * (seed + 3)};
+                const Numbers drawn = component(take(PT_SAMPLER_SOBOL, request), which);
+                blocks[request.block].insert(blocks[request.block].end(), drawn.begin(), drawn.end());
+            }
+        for (std::size_t i = 0; i < table_blocks; ++i)
+            EXPECT_LT(deviate({blocks[i], blocks[(i + 1) % 4], blocks[(i + 2) % 4]}, 4), bound)
+                << "component " << which << ", from block " << i;
+    }
+}
+
 TEST(SamplerChecks, NegativeControls) {
     Request request;
     request.pixel_count = 1U << 18;
     EXPECT_GT(uniform_deviate(component(take(PT_SAMPLER_HALTON, request), 0)), bound);
     const Blocks blocks = take(PT_SAMPLER_RANDOM, request);
-    const std::vector<std::uint32_t> x = component(blocks, 0);
-    std::vector<std::uint32_t> y = component(blocks, 1);
-    std::vector<std::uint32_t> skewed = x;
+    const Numbers x = component(blocks, 0);
+    Numbers y = component(blocks, 1);
+    Numbers skewed = x;
     for (std::size_t i = 0; i < x.size(); ++i) {
         skewed[i] = static_cast<std::uint32_t>(std::pow(x[i] / scale, 1.03) * scale);
         y[i] = i % 100 < 3 ? x[i] : y[i];
@@ -182,3 +263,5 @@ TEST(SamplerChecks, NegativeControls) {
 }
 
 } // namespace
+
+} // namespace sample_numbers
