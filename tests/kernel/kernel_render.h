@@ -9,16 +9,36 @@
 #include "tests/film/film_words.h"
 #include "tests/invariance/invariance_scene.h"
 #include "tests/kernel/probe.h"
-#include "tests/kernel/scene_constants.h"
 #include "tests/support/checked_scene_of.h"
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
+
+inline std::vector<std::uint32_t> with_scene_source(std::span<const std::uint32_t> constants, std::uint32_t source,
+                                                    std::span<const glm::vec4> words) {
+    std::vector<std::uint32_t> result(constants.begin(), constants.end());
+    result[pt::gpu::ID_SCENE_SOURCE] = source;
+    result[pt::gpu::ID_POINT_BLOCKS] = probe_point_blocks;
+    if (source == pt::gpu::SCENE_IN_CONSTANTS)
+        for (const glm::vec4 &word : words)
+            for (int i = 0; i < 4; ++i)
+                result.push_back(std::bit_cast<std::uint32_t>(word[i]));
+    return result;
+}
+
+// If the scene is in constants, the buffer gets wrong words.
+inline void set_scene_for(Probe &probe, std::uint32_t source, std::span<const glm::vec4> words) {
+    if (source == pt::gpu::SCENE_IN_CONSTANTS)
+        probe.set_scene(std::vector<glm::vec4>(words.size(), glm::vec4(-77.0F)));
+    else
+        probe.set_scene(words);
+}
 
 class KernelRender {
 public:
@@ -75,12 +95,9 @@ public:
     }
 
     Probe probe_of_tree(std::uint32_t walk_trips = 0) const {
-        Constants of_scene = this->constants();
+        Constants of_scene = constants();
         of_scene[pt::gpu::ID_WALK_TRIPS] = walk_trips;
-        const auto constants = with_scene_source(of_scene, pt::gpu::SCENE_IN_STORAGE, words());
-        Probe probe(pt::specialised_code(pt::embedded_code().pathtrace, constants), sizeof frame_, constants);
-        probe.set_scene(words());
-        return probe;
+        return probe_of_kernel(of_scene, pt::gpu::SCENE_IN_STORAGE, words());
     }
 
     FilmWords film_by(Probe &probe) const {
