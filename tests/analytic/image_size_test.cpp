@@ -1,15 +1,13 @@
 #include "tests/analytic/analytic_fixture.h"
-#include "tests/analytic/judge.h"
-#include "tests/analytic/sphere_coverage.h"
 #include "tests/support/scene_of.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <random>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -21,65 +19,75 @@ struct Shape {
     double window_height;
 };
 
-class ImageSize : public AnalyticFixture, public testing::WithParamInterface<Shape> {};
-
-const SphereCoverage sphere_coverage(1, 0.5, -5);
-
-Image render_sphere(const Shape &shape, double radius, const auto &image_of) {
-    const pt_material material{{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0, 0};
-    const pt_sphere sphere{{1, 0.5, -4}, radius, {0, 0, 0}, 0, 0};
-    const pt_scene scene = scene_of({&material, 1}, {&sphere, 1}, {});
-    return image_of(scene, camera_at({0, 0, 1}, {0, 0, 0}, 2.0 * std::atan(0.5 * shape.window_height)));
-}
-
-std::uint32_t samples_for(const Shape &shape) {
-    return std::bit_floor(std::clamp((1U << 22) / (shape.width * shape.height), 256U, 1U << 18));
-}
-
-double share_of(const Shape &shape, std::uint32_t x, std::uint32_t y) {
-    const double size = shape.window_height / shape.height;
-    const double left = (x - 0.5 * shape.width) * size;
-    const double top = (0.5 * shape.height - y) * size;
-    const auto [first, last] = sphere_coverage.chord(top - 0.5 * size);
-    if (left > 0.5 || left + size < -0.1 || (first == last && std::abs(top) > 0.5 + size))
-        return 0.0;
-    return sphere_coverage.share(left, left + size, top - size, top);
-}
-
-// Full and empty pixels must be exact. The quadrature is exact to 1e-4.
-std::uint32_t compare(const Image &image, const Shape &shape) {
-    std::uint32_t found = 0;
-    for (std::uint32_t y = 0; y < shape.height; ++y)
-        for (std::uint32_t x = 0; x < shape.width; ++x) {
-            const double share = share_of(shape, x, y);
-            const double measured = image.red(x, y);
-            const bool partly = share > 0.0 && share < 1.0 - 1e-9;
-            const double tolerance =
-                partly ? 1e-4 + share * noise_bound(std::sqrt((1.0 - share) / share), samples_for(shape)) : 0.0;
-            found += std::abs(measured - (partly ? share : std::round(share))) > tolerance;
+// Planes that touch the unit sphere around the camera. Each has its own emission, and is the nearest in a convex part
+// of the view.
+class ImageSize : public AnalyticFixture, public testing::WithParamInterface<Shape> {
+protected:
+    ImageSize() {
+        std::mt19937 engine(1);
+        std::uniform_real_distribution<double> place(-1.0, 1.0);
+        for (std::uint32_t i = 0; i < 24; ++i) {
+            const float emission = static_cast<float>(i + 1) / 32.0F;
+            materials_.push_back({{0, 0, 0}, {0, 0, 0}, {emission, emission, emission}, 0, 0});
+            const double x = place(engine);
+            const double y = place(engine);
+            planes_.push_back({{-x, -y, 1.0}, std::hypot(x, y, 1.0), i, 0});
         }
-    return found;
-}
+    }
 
-TEST_P(ImageSize, EveryPixelCoversItsShare) {
-    const Shape &shape = GetParam();
-    const auto render = [&](const pt_scene &scene, const pt_camera &camera) {
-        return image_of(scene, camera, render_of(shape.width, shape.height, 1), samples_for(shape));
-    };
-    const Image image = render_sphere(shape, 1.0, render);
-    EXPECT_EQ(compare(image, shape), 0U);
-    // Negative control: 6% more area.
-    EXPECT_GT(compare(render_sphere(shape, 1.03, render), shape), 0U);
-}
+    Image render() {
+        const Shape &shape = GetParam();
+        return image_of(scene_of(materials_, {}, planes_),
+                        camera_at({0, 0, 0}, {0, 0, -1}, 2.0 * std::atan(0.5 * shape.window_height)),
+                        render_of(shape.width, shape.height, 1), sample_count);
+    }
 
-TEST(ImageSizeClosedForm, SharesAddUpToTheArea) {
-    EXPECT_NEAR(sphere_coverage.area(), 0.1342652736, 1e-9);
-    const Shape shape{61, 37, 1.0};
-    double sum = 0.0;
-    for (std::uint32_t y = 0; y < shape.height; ++y)
-        for (std::uint32_t x = 0; x < shape.width; ++x)
-            sum += share_of(shape, x, y) / (37.0 * 37.0);
-    EXPECT_NEAR(sum, sphere_coverage.area(), 1e-6);
+    // Pixels whose corners see one plane must be exact. Others must be within five standard errors of the mean over a
+    // grid.
+    std::uint32_t wrong_pixels(const Image &image, double shift) const {
+        const Shape &shape = GetParam();
+        std::uint32_t wrong = 0;
+        for (std::uint32_t y = 0; y < shape.height; ++y)
+            for (std::uint32_t x = 0; x < shape.width; ++x) {
+                const double corner = emission_at(x + shift, y + shift);
+                const bool exact = corner == emission_at(x + shift + 1, y + shift) &&
+                                   corner == emission_at(x + shift, y + shift + 1) &&
+                                   corner == emission_at(x + shift + 1, y + shift + 1);
+                double mean = exact ? corner : 0.0;
+                for (int i = 0; i < 32 * 32 && !exact; ++i)
+                    mean += emission_at(x + shift + (i % 32 + 0.5) / 32, y + shift + (i / 32 + 0.5) / 32) / (32 * 32);
+                wrong += std::abs(image.red(x, y) - mean) > (exact ? 0.0 : 0.12) ? 1 : 0;
+            }
+        return wrong;
+    }
+
+private:
+    static constexpr std::uint32_t sample_count = 256;
+
+    double emission_at(double x, double y) const {
+        const Shape &shape = GetParam();
+        const double size = shape.window_height / shape.height;
+        const double across = (x - 0.5 * shape.width) * size;
+        const double up = (0.5 * shape.height - y) * size;
+        double steepest = 0.0;
+        std::uint32_t nearest = 0;
+        for (const pt_plane &plane : planes_)
+            if (const double slope = (plane.normal[0] * across + plane.normal[1] * up - 1.0) / plane.offset;
+                slope < steepest) {
+                steepest = slope;
+                nearest = plane.material;
+            }
+        return materials_[nearest].emission[0];
+    }
+
+    std::vector<pt_material> materials_;
+    std::vector<pt_plane> planes_;
+};
+
+TEST_P(ImageSize, EveryPixelSeesItsPlanes) {
+    const Image image = render();
+    EXPECT_EQ(wrong_pixels(image, 0.0), 0U);
+    EXPECT_GT(wrong_pixels(image, 1.0), 0U) << "negative control: the next pixels";
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, ImageSize,
