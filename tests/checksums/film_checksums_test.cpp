@@ -35,9 +35,8 @@ std::string hexadecimal(std::uint64_t number) {
     return text.str();
 }
 
-template <typename Number>
-std::string checksum_of(const std::vector<Number> &numbers) {
-    return hexadecimal(pt::checksum(std::as_bytes(std::span(numbers))));
+std::string checksum_of(const std::vector<float> &values) {
+    return hexadecimal(pt::checksum(std::as_bytes(std::span(values))));
 }
 
 std::string checksum_of_sums(const std::vector<char> &film) {
@@ -47,10 +46,6 @@ std::string checksum_of_sums(const std::vector<char> &film) {
 
 class FilmChecksums : public ContextFixture {
 protected:
-    static std::vector<float> image_of(pt_context *on, std::uint32_t quantity, std::uint32_t rows = height) {
-        return values_of(on, std::size_t{width} * rows, quantity);
-    }
-
     static void take(pt_context *on, std::uint32_t samples, const std::vector<std::uint32_t> &by_tile = {}) {
         pt_accumulate_info info{};
         info.struct_size = sizeof info;
@@ -60,33 +55,16 @@ protected:
         ASSERT_EQ(pt_accumulate(on, &info), PT_OK) << pt_last_error(on);
     }
 
-    // First all tiles take equal samples, then some tiles take more. Rendering rows alone, or continuing a saved film,
-    // must give the same bits.
+    // First all tiles take equal samples, then some tiles take more.
     static std::string checksums(pt_context *on, const cli::SceneFile &file, std::uint32_t sampler) {
-        const pt_scene scene = file.scene();
         pt_render render = render_of(width, height, std::min(file.render.max_path_length, 4U));
         render.sampler = sampler;
-        set_picture(on, scene, file.camera, render);
+        set_picture(on, file.scene(), file.camera, render);
         take(on, 5);
-        take(on, 20);
-        const std::vector<char> begun = film_of(on);
-        take(on, 15);
-        const std::vector<char> whole = film_of(on);
-        const std::vector<float> image = image_of(on, PT_QUANTITY_RADIANCE);
-        std::string found = checksum_of_sums(whole) + ' ' + checksum_of(image) + ' ' +
-                            checksum_of(image_of(on, PT_QUANTITY_STANDARD_ERROR));
-        render.first_row = 5;
-        render.row_count = 9;
-        EXPECT_EQ(pt_set_render(on, &render), PT_OK) << pt_last_error(on);
-        take(on, 40);
-        EXPECT_TRUE(
-            std::ranges::equal(image_of(on, PT_QUANTITY_RADIANCE, 9),
-                               std::span(image).subspan(std::size_t{5} * 3 * width, std::size_t{9} * 3 * width)));
-        render.first_row = render.row_count = 0;
-        EXPECT_EQ(pt_set_render(on, &render), PT_OK) << pt_last_error(on);
-        EXPECT_EQ(pt_add_film(on, begun.data(), begun.size()), PT_OK) << pt_last_error(on);
-        take(on, 15);
-        EXPECT_TRUE(film_of(on) == whole);
+        take(on, 35);
+        const std::string found = checksum_of_sums(film_of(on)) + ' ' +
+                                  checksum_of(values_of(on, std::size_t{width} * height)) + ' ' +
+                                  checksum_of(values_of(on, std::size_t{width} * height, PT_QUANTITY_STANDARD_ERROR));
         std::vector<std::uint32_t> by_tile(tile_count);
         for (std::uint32_t tile = 0; tile < tile_count; ++tile)
             by_tile[tile] = tile * 7 % most_of_tile;

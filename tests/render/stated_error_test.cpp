@@ -3,6 +3,7 @@
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
+#include "tests/support/render_image.h"
 #include "tests/support/scene_of.h"
 
 #include <pt/film.h>
@@ -58,21 +59,15 @@ protected:
         CourseworkScene coursework;
         if (diffuse)
             coursework.make_diffuse();
-        const pt_scene scene = coursework.scene();
-        const pt_camera camera = CourseworkScene::camera();
         pt_render render = render_of(calibration_width, calibration_height, max_path_length);
         render.seed = 5;
         render.sampler = sampler;
         render.first_sample = first_sample;
         render.estimator = estimator;
-        set_picture(context(), scene, camera, render);
+        set_picture(context(), coursework.scene(), CourseworkScene::camera(), render);
     }
 
-    Image image() {
-        Image image(calibration_width * calibration_height * 3);
-        readback(image);
-        return image;
-    }
+    Image image() { return values_of(context(), calibration_width * calibration_height); }
 };
 
 // Lamps are found by chance. If errors of bright pixels were relative to their own means, the stated error would be
@@ -133,16 +128,10 @@ TEST_F(StatedError, OfLampsBelowAPixelIsThatByManySamples) {
     }
     const pt_scene scene = scene_of(lamp, lamps, {});
     const pt_camera camera = camera_at({0, 0, 0}, {0, 0, -1}, fov);
-    ASSERT_EQ(pt_set_scene(context(), &scene), PT_OK) << pt_last_error(context());
-    ASSERT_EQ(pt_set_camera(context(), &camera), PT_OK) << pt_last_error(context());
     const auto image_of = [&](uint32_t seed, uint32_t samples) {
         pt_render render = render_of(width, height, 1);
         render.seed = seed;
-        EXPECT_EQ(pt_set_render(context(), &render), PT_OK) << pt_last_error(context());
-        accumulate(samples);
-        Image image(width * height * 3);
-        readback(image);
-        return image;
+        return render_image(context(), scene, camera, render, samples);
     };
     const Image reference = image_of(99, 4096);
     for (const uint32_t seed : {1U, 2U, 3U}) {
