@@ -3,22 +3,20 @@
 import json
 import os
 import random
-import shutil
-import subprocess
 import time
 
-from command_line import COURSEWORK, PATIENCE, PT, SCENES, CommandLineTest, default_signals
+from command_line import COURSEWORK, PATIENCE, PT, SCENES, CommandLineTest
 
 KILLS = int(os.environ.get("PT_TEST_KILLS", "4"))
 MOST_DELAY = 0.3
 SAMPLES_A_KILL = 2000
 
 
-class KeptRender(CommandLineTest):
+class KilledRender(CommandLineTest):
     program = PT
 
-    def options(self, spp, size="32x16"):
-        return ["render", COURSEWORK, "--spp", str(spp), "--size", size, "-o", "a.png", "--film", "a.ptfilm", "-q"]
+    def options(self, spp):
+        return ["render", COURSEWORK, "--spp", str(spp), "--size", "32x16", "-o", "a.png", "--film", "a.ptfilm", "-q"]
 
     def whole(self, *options):
         self.expect(0, *options)
@@ -35,7 +33,6 @@ class KeptRender(CommandLineTest):
         return json.loads(self.output)["spp"]
 
 
-class KilledRender(KeptRender):
     def identity(self, name):
         return os.stat(self.path(name)).st_ino if os.path.exists(self.path(name)) else None
 
@@ -70,15 +67,6 @@ class KilledRender(KeptRender):
         self.assertEqual([self.contents(file) for file in ("a.png", "a.ptfilm")], expected)
         self.assertEqual(self.files(), ["a.png", "a.ptfilm", name])
 
-    def test_a_target_error_is_reached_at_the_same_sample(self):
-        options = [*self.options(100000), "--error", "3%", "--sampling", "uniform", "--stats", "a.json"]
-        expected = self.whole(*options)
-        stats = json.loads(self.read("a.json"))
-        self.assertEqual((stats["spp"], stats["target_reached"]), (stats["spp_max"], True))
-        self.expect(0, *self.options(37), "--checkpoint", "c.ptfilm")
-        self.expect(0, *options, "--checkpoint", "c.ptfilm", "--resume")
-        self.assertEqual([self.contents(file) for file in ("a.png", "a.ptfilm")], expected)
-
     def test_pixels_with_different_numbers_of_samples_go_on_too(self):
         options = [*self.options(100000), "--error", "4%", "--sampling", "adaptive", "--stats", "a.json"]
         expected = self.whole(*options)
@@ -90,49 +78,6 @@ class KilledRender(KeptRender):
         stats = json.loads(self.read("a.json"))
         self.assertEqual((stats["ended_by"], stats["spp"] < stats["spp_max"]), ("error", True))
         self.assertEqual([self.contents(file) for file in ("a.png", "a.ptfilm")], expected)
-
-
-class Surroundings(KeptRender):
-    made = []
-
-    def setUp(self):
-        super().setUp()
-        self.small = self.options(200)
-        self.made.extend([] if self.made else self.whole(*self.small))
-        self.expected = self.made
-
-    def expect_picture(self, *keep, told, **how):
-        done = subprocess.run([PT, *self.small[:-1], *keep, "--checkpoint-every", "0.01"], cwd=self.folder, text=True,
-                              stderr=subprocess.PIPE, check=False, preexec_fn=default_signals,
-                              **{"stdout": subprocess.DEVNULL, **how})
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(done.stderr.count("pt: no checkpoint: "), 1 if told else 0, done.stderr)
-        if told:
-            self.assertIn(told, done.stderr)
-        self.assertEqual([self.contents(name) for name in ("a.png", "a.ptfilm")], self.expected)
-        self.assertEqual([name for name in self.files() if name.endswith(".tmp")], [])
-
-    def test_a_folder_that_cannot_be_written(self):
-        self.expect_picture("--checkpoint", "/sys/c.ptfilm", told="cannot write /sys/c.ptfilm")
-        self.expect_picture("--checkpoint", "none/c.ptfilm", told="No such file or directory")
-
-    def test_a_closed_standard_output(self):
-        done = subprocess.run(["sh", "-c", '"$@" >&-', "sh", PT, *self.small[:-1], "--checkpoint", "c.ptfilm"],
-                              cwd=self.folder, stderr=subprocess.PIPE, text=True, check=False)
-        self.assertEqual((done.returncode, done.stderr), (6, "pt: cannot write to standard output\n"))
-        self.assertEqual([self.contents(name) for name in ("a.png", "a.ptfilm")], self.expected)
-        self.assertGreater(self.samples_kept("c.ptfilm"), 0)
-
-    def test_a_decimal_comma(self):
-        if not shutil.which("localedef") or subprocess.run(
-                ["localedef", "-i", "de_DE", "-f", "UTF-8", self.path("de_DE.UTF-8")], capture_output=True,
-                check=False).returncode != 0:
-            self.skipTest("no such locale can be made here")
-        environment = {**os.environ, "LOCPATH": self.folder, "LC_ALL": "de_DE.UTF-8"}
-        shown = subprocess.run(["locale", "decimal_point"], env=environment, capture_output=True, check=False)
-        self.assertEqual(shown.stdout, b",\n")
-        self.expect_picture("--checkpoint", "c.ptfilm", told=None, env=environment)
-        self.expect_picture("--checkpoint", "c.ptfilm", "--resume", told=None, env=environment)
 
 
 class Resume(CommandLineTest):

@@ -58,11 +58,13 @@ class CommandLineTest(unittest.TestCase):
         with open(self.path(name), "rb") as file:
             return file.read()
 
-    def start(self, *arguments, before=default_signals, **environment):
+    def start(self, *arguments, before=default_signals, stderr=subprocess.PIPE, **environment):
         names = {name: str(value) for name, value in environment.items()}
         process = subprocess.Popen([self.program, *arguments], cwd=self.folder, env={**os.environ, **names}, text=True,
-                                   errors="replace", stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=before)
-        for undo in (process.stdout.close, process.stderr.close, process.wait, process.kill):
+                                   errors="replace", stdout=subprocess.PIPE, stderr=stderr, preexec_fn=before)
+        for stream in filter(None, (process.stdout, process.stderr)):
+            self.addCleanup(stream.close)
+        for undo in process.wait, process.kill:
             self.addCleanup(undo)
         return process
 

@@ -44,14 +44,6 @@ class Usage(CommandLineTest):
                 self.expect(2, *arguments, error=error)
         self.assertEqual(self.files(), [])
 
-    def test_failing_allocations_end_the_program(self):
-        codes = []
-        for number in range(1, 3000, 173):
-            codes.append(self.run_pt("render", COURSEWORK, "-o", "a.png", "--gamma", "0", FAKE_PT_ALLOCATION=number))
-            self.assertRegex(self.errors, {1: r"\Apt: out of memory(, or an internal error)?\n\Z", 2: "--gamma"}[codes[-1]])
-        self.assertGreater(codes.count(1), 7)
-        self.assertEqual(self.files(), [])
-
 
 class Start(CommandLineTest):
     def test_image_libraries_are_loaded_for_other_formats_than_png(self):
@@ -103,11 +95,7 @@ class Outputs(CommandLineTest):
         attributes = read_exr_attributes(self.path("a.exr"))
         self.assertFalse({"pt.toneMap", "pt.exposure", "pt.encoding", "pt.relativeError"} & set(attributes))
         self.assertEqual(attributes["samplesPerPixel"], ("int", struct.pack("<i", 5)))
-        for name, text in (("pt.seed", "18446744073709551615"), ("pt.firstSample", "0"), ("pt.sampler", "best"),
-                           ("pt.estimator", "best"), ("pt.rejectedSamples", "0"), ("pt.device", "fake device"),
-                           ("pt.driver", "fake driver 1.0"), ("pt.scene", os.path.basename(COURSEWORK))):
-            self.assertEqual(attributes[name], ("string", text.encode()), name)
-        self.assertEqual(attributes["pt.maxPathLength"], ("int", struct.pack("<i", 2)))
+        self.assertEqual(attributes["pt.seed"], ("string", b"18446744073709551615"))
         self.assertTrue(attributes["software"][1].startswith(b"pt "))
         channels = attributes["channels"][1]
         self.assertEqual([channels.index(name + b"\0\2\0\0\0") for name in (b"B", b"G", b"R")], [0, 18, 36])
@@ -128,8 +116,6 @@ class Outputs(CommandLineTest):
                                            [0, 255, 255, 188, 255, 255, 255, 255, 255]]))
         self.assertEqual(pixels("--gamma", "1")[2][0], [0, 0, 255, 128, 0, 255, 255, 0, 255])
         self.assertEqual(pixels("--gamma", "1", "--exposure", "-2")[2][0], [0, 0, 128, 32, 0, 128, 64, 0, 128])
-        self.assertEqual(pixels("--gamma", "1", "--exposure", "-2", "--white", "1,1,1")[2][0],
-                         [0, 0, 128, 32, 0, 128, 64, 0, 128])
         self.assertNotEqual(pixels("--gamma", "1", "--exposure", "-2", "--white", "1,1,2")[2][0],
                             [0, 0, 128, 32, 0, 128, 64, 0, 128])
         # (0, 0, 2) has the luminance 0.1444, so blue is 2 / 1.1444, which is clipped. (0.5, 0, 2) has 0.2507, so red is 0.5 / 1.2507.

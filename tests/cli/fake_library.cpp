@@ -1,12 +1,13 @@
 // Replaces libpt, needs no device and fails on demand. Environment variables:
 // FAKE_PT_FAIL=function:result  fails the function
+// FAKE_PT_FAIL=create:-99       has no memory, as if the program had none
 // FAKE_PT_FAIL=name:1           the device's name is invalid UTF-8; name:2: it has an escape
 // FAKE_PT_MESSAGE               message of failures
 // FAKE_PT_SAMPLE_MS             least duration of a sample
 // FAKE_PT_SIGNAL=number:n       signal at the start of submission n; a sample has four submissions
 // FAKE_PT_SCENE_SIGNAL=number   signal during pt_set_scene
+// FAKE_PT_RED=number            red of all pixels
 // FAKE_PT_LOG=function          logs a line in the function
-// FAKE_PT_ALLOCATION=number     fails this allocation of the program
 #include <pt/accuracy.h>
 #include <pt/devices.h>
 #include <pt/errors.h>
@@ -15,13 +16,12 @@
 #include <pt/shaders.h>
 #include <pt/stats.h>
 
-#include <atomic>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
-#include <exception>
 #include <limits>
 #include <new>
 #include <string>
@@ -86,32 +86,11 @@ double fake_error(std::uint32_t sample_count) {
     return sample_count < 16 ? std::numeric_limits<double>::infinity() : 1.0 / sample_count;
 }
 
-// Counts allocations from main() on. main() sets a terminate handler first.
-bool is_failing_allocation() {
-    static const std::terminate_handler before_main = std::get_terminate();
-    static const char *const wanted = std::getenv("FAKE_PT_ALLOCATION");
-    static std::atomic<long> left = wanted == nullptr ? 0 : std::atol(wanted);
-    return left > 0 && std::get_terminate() != before_main && --left == 0;
-}
-
 std::uint32_t rows_of(const pt_render &render) {
     return render.row_count == 0 ? render.height - render.first_row : render.row_count;
 }
 
 } // namespace
-
-void *operator new(std::size_t size) {
-    void *const memory = is_failing_allocation() ? nullptr : std::malloc(size);
-    if (memory == nullptr)
-        throw std::bad_alloc();
-    return memory;
-}
-void operator delete(void *memory) noexcept {
-    std::free(memory);
-}
-void operator delete(void *memory, std::size_t) noexcept {
-    std::free(memory);
-}
 
 pt_result pt_get_devices(pt_device_info *devices, std::uint32_t *count) {
     const pt_result result = failure("devices");
@@ -128,6 +107,8 @@ pt_result pt_get_devices(pt_device_info *devices, std::uint32_t *count) {
 pt_result pt_create(const pt_create_info *info, pt_context **context) {
     const pt_result result = failure("create");
     if (result < 0) {
+        if (result == -99)
+            throw std::bad_alloc();
         creation_error = setting("FAKE_PT_MESSAGE");
         *context = nullptr;
         return result;
@@ -231,6 +212,7 @@ pt_result pt_readback(pt_context *context, const pt_image *image) {
     const pt_render &render = context->render;
     auto *object = static_cast<std::uint32_t *>(image->data);
     const float wrong = failure("split") == PT_OK ? 0.0F : static_cast<float>(context->call_count);
+    const std::string red = setting("FAKE_PT_RED");
     auto *value = static_cast<float *>(image->data);
     const bool is_whole = image->width == 0;
     const std::uint32_t width = is_whole ? render.width : image->width;
@@ -241,8 +223,9 @@ pt_result pt_readback(pt_context *context, const pt_image *image) {
                 *object++ = y * render.width + x;
                 continue;
             }
-            *value++ = static_cast<float>(x) / static_cast<float>(render.width > 1 ? render.width - 1 : 1);
-            *value++ = static_cast<float>(y) / static_cast<float>(render.height > 1 ? render.height - 1 : 1);
+            *value++ = red.empty() ? static_cast<float>(x) / static_cast<float>(std::max(render.width, 2U) - 1)
+                                   : std::stof(red);
+            *value++ = static_cast<float>(y) / static_cast<float>(std::max(render.height, 2U) - 1);
             *value++ = 2.0F + wrong;
         }
     }

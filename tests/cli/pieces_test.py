@@ -27,7 +27,8 @@ class Pieces(CommandLineTest):
         whole = self.pixels()
         self.assertEqual(self.pixels(FAKE_PT_MAX_ROWS=9), whole)
         self.assertIn("4 pieces of up to 9 rows: ", self.errors)  # halved from 33 rows to 17 and 9
-        self.expect(2, "render", COURSEWORK, *SIZE, "-o", "a.png", error="more than the device has", FAKE_PT_MAX_ROWS=0)
+        self.expect(2, "render", COURSEWORK, *SIZE, "-o", "a.png", FAKE_PT_MAX_ROWS=0,
+                    error="pt: --size: width * rows = 40 * 33: more than the device has\n")
 
     def test_statistics_are_those_of_all_pieces(self):
         self.pixels("--stats", "s.json", "--piece-rows", "10", FAKE_PT_FAIL="rejected:1")

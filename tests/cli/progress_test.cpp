@@ -1,4 +1,5 @@
 #include "cli/base/progress.h"
+#include "cli/render/image_render.h"
 
 #include <nlohmann/json.hpp>
 
@@ -18,10 +19,10 @@ using std::chrono::milliseconds;
 
 const Progress::Clock::time_point start{};
 
-std::string output_of(ProgressStyle style, std::size_t columns = 80) {
+std::string output_of(ProgressStyle style) {
     std::ostringstream output;
     {
-        Progress progress(output, style, 1'000'000, 100, start, [columns] { return columns; });
+        Progress progress(output, style, 1'000'000, 100, start, [] { return std::size_t{80}; });
         for (int i = 1; i <= 200; ++i)
             progress.update_samples(i / 2.0, start + milliseconds(10 * i));
     }
@@ -51,11 +52,21 @@ TEST(Progress, TerminalLine) {
     EXPECT_TRUE(output.ends_with("\r\x1b[K"));
 }
 
+std::string line_after(int time, double samples, const std::function<void(Progress &)> &prepare,
+                       std::size_t columns = 80) {
+    std::ostringstream output;
+    std::size_t columns_now = 80;
+    Progress progress(output, ProgressStyle::line, 1'000'000, 100, start, [&] { return columns_now; });
+    columns_now = columns;
+    prepare(progress);
+    progress.update_samples(samples, start + milliseconds(time));
+    return output.str().substr(std::string("\r\x1b[K").size());
+}
+
 TEST(Progress, TerminalLineFitsAnyWidth) {
     const auto line_of = [](std::size_t columns) {
-        const std::string output = output_of(ProgressStyle::line, columns);
-        const std::size_t begin = output.find(" 50.5 %");
-        return begin == std::string::npos ? "" : output.substr(begin, output.find('\r', begin) - begin);
+        return line_after(
+            1010, 50.5, [](Progress &) {}, columns);
     };
     EXPECT_EQ(line_of(50), " 50.5 %  ETA 0:00:01  50/100 spp  50.0 Msamples/s");
     EXPECT_EQ(line_of(49), " 50.5 %  ETA 0:00:01  50/100 spp");
@@ -63,16 +74,6 @@ TEST(Progress, TerminalLineFitsAnyWidth) {
     EXPECT_EQ(line_of(20), " 50.5 %");
     EXPECT_EQ(line_of(8), " 50.5 %");
     EXPECT_EQ(line_of(7), "");
-}
-
-TEST(Progress, TheWidthIsAskedForEachTime) {
-    std::ostringstream output;
-    std::size_t columns = 80;
-    Progress progress(output, ProgressStyle::line, 1'000'000, 100, start, [&columns] { return columns; });
-    progress.update_samples(25.0, start + milliseconds(1000));
-    columns = 10;
-    progress.update_samples(50.0, start + milliseconds(2000));
-    EXPECT_TRUE(output.str().ends_with("Msamples/s\r\x1b[K 50.0 %")) << output.str();
 }
 
 TEST(Progress, NeverFallsWhateverIsExpected) {
@@ -95,18 +96,6 @@ TEST(Progress, NeverFallsWhateverIsExpected) {
     }
 }
 
-TEST(Progress, NoneIsSilent) {
-    EXPECT_EQ(output_of(ProgressStyle::none), "");
-}
-
-TEST(Progress, StyleFollowsTheTerminal) {
-    EXPECT_EQ(cli::progress_style("auto", false, true), ProgressStyle::line);
-    EXPECT_EQ(cli::progress_style("auto", false, false), ProgressStyle::none);
-    EXPECT_EQ(cli::progress_style("json", false, true), ProgressStyle::json);
-    EXPECT_EQ(cli::progress_style("none", false, true), ProgressStyle::none);
-    EXPECT_EQ(cli::progress_style("json", true, true), ProgressStyle::none); // -q
-}
-
 TEST(Progress, OfTheSceneIsALineThatGoesAway) {
     const auto output_after = [](ProgressStyle style, int milliseconds_in_all) {
         std::ostringstream output;
@@ -119,36 +108,39 @@ TEST(Progress, OfTheSceneIsALineThatGoesAway) {
     };
     EXPECT_EQ(output_after(ProgressStyle::line, 99), "");
     EXPECT_EQ(output_after(ProgressStyle::line, 250), "\r\x1b[Kscene  10 %\r\x1b[Kscene  20 %\r\x1b[K");
-    EXPECT_EQ(output_after(ProgressStyle::json, 1000), "");
-    EXPECT_EQ(output_after(ProgressStyle::none, 1000), "");
+    for (const ProgressStyle style : {ProgressStyle::json, ProgressStyle::none})
+        EXPECT_EQ(output_after(style, 1000), "");
 }
 
-std::string line_after(Progress::Clock::duration time, double samples, const std::function<void(Progress &)> &prepare) {
-    std::ostringstream output;
-    Progress progress(output, ProgressStyle::line, 1'000'000, 100, start, [] { return std::size_t{80}; });
-    prepare(progress);
-    progress.update_samples(samples, start + time);
-    return output.str().substr(std::string("\r\x1b[K").size());
-}
-
-TEST(Progress, TheErrorIsShownOnceItIsKnown) {
-    EXPECT_EQ(line_after(milliseconds(1000), 50.0, [](Progress &progress) { progress.show_error(0.012345); }),
-              " 50.0 %  ETA 0:00:01  50/100 spp  error 1.23%  50.0 Msamples/s");
+TEST(Progress, LinesFollowErrorStartAndTimeLimit) {
     constexpr double unknown = std::numeric_limits<double>::infinity();
-    EXPECT_EQ(line_after(milliseconds(1000), 50.0, [](Progress &progress) { progress.show_error(unknown); }),
+    EXPECT_EQ(line_after(1000, 50.0, [](Progress &progress) { progress.show_error(0.012345); }),
+              " 50.0 %  ETA 0:00:01  50/100 spp  error 1.23%  50.0 Msamples/s");
+    EXPECT_EQ(line_after(1000, 50.0, [](Progress &progress) { progress.show_error(unknown); }),
               " 50.0 %  ETA 0:00:01  50/100 spp  50.0 Msamples/s");
-}
-
-TEST(Progress, SamplesOfAnotherRunTookNoTime) {
-    EXPECT_EQ(line_after(milliseconds(1000), 60.0, [](Progress &progress) { progress.begin_at(40); }),
+    EXPECT_EQ(line_after(1000, 60.0, [](Progress &progress) { progress.begin_at(40); }),
               " 60.0 %  ETA 0:00:02  60/100 spp  20.0 Msamples/s");
+    EXPECT_EQ(line_after(3000, 10.0, [](Progress &progress) { progress.limit_time(4.0); }),
+              " 75.0 %  ETA 0:00:01  10/100 spp  3.3 Msamples/s");
+    EXPECT_EQ(line_after(3000, 90.0, [](Progress &progress) { progress.limit_time(4000.0); }),
+              " 90.0 %  ETA 0:00:01  90/100 spp  30.0 Msamples/s");
 }
 
-TEST(Progress, TimeCountsWhereItEndsSooner) {
-    EXPECT_EQ(line_after(milliseconds(3000), 10.0, [](Progress &progress) { progress.limit_time(4.0); }),
-              " 75.0 %  ETA 0:00:01  10/100 spp  3.3 Msamples/s");
-    EXPECT_EQ(line_after(milliseconds(3000), 90.0, [](Progress &progress) { progress.limit_time(4000.0); }),
-              " 90.0 %  ETA 0:00:01  90/100 spp  30.0 Msamples/s");
+TEST(SampleForecast, FallsWithTheRootOfTheNumberAndIsBeyondTheNextLook) {
+    constexpr std::uint32_t most = 65536;
+    EXPECT_EQ(cli::forecast_sample_count(100, 0.03, 0.01, most), 900U);
+    EXPECT_EQ(cli::forecast_sample_count(100, 1.0, 0.01, most), most);
+    EXPECT_EQ(cli::forecast_sample_count(8, std::numeric_limits<double>::infinity(), 0.01, most), most);
+    EXPECT_EQ(cli::forecast_sample_count(0, 0.01, 0.01, most), 17U);
+    EXPECT_EQ(cli::forecast_sample_count(64, 0.01, 0.01, 70), 70U);
+}
+
+TEST(StepLength, AimsAtItsTimeAndHasALeast) {
+    EXPECT_EQ(cli::next_step_length(100, 4.0 * cli::step_seconds), 25U);
+    EXPECT_EQ(cli::next_step_length(100, 0.5 * cli::step_seconds), 200U);
+    EXPECT_EQ(cli::next_step_length(1, 0.5 * cli::step_seconds), 16U);
+    EXPECT_EQ(cli::next_step_length(100, 0.0), 1U << 30);
+    EXPECT_EQ(cli::next_step_length(4000000000U, 1e-9), 1U << 30);
 }
 
 } // namespace

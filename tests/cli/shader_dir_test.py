@@ -38,11 +38,8 @@ class ShaderDir(WatchTest):
         pt.line_with("watching s.json and the shaders in shaders; Ctrl-C ends")
         self.expect_picture(0.25)
 
-        self.write("shaders/pathtrace.comp", self.brighter("2.0"))
-        pt.line_with("changed: shaders/pathtrace.comp")
-        pt.line_with("wrote a.png")
-        self.expect_picture(0.5)
         self.save("shaders/pathtrace.comp", self.brighter("4.0"))
+        pt.line_with("changed: shaders/pathtrace.comp")
         pt.line_with("wrote a.png")
         self.expect_picture(1.0)
 
@@ -58,8 +55,6 @@ class ShaderDir(WatchTest):
         pt.line_with("wrote a.png")
         self.expect_picture(1.0)
 
-        os.remove(self.path("shaders/phong.glsl"))
-        pt.line_with("shaders/phong.glsl: No such file or directory")
         os.rename(self.path("shaders"), self.path("aside"))
         pt.line_with("shaders/pathtrace.comp: No such file or directory")
         shutil.copytree(SHADERS, self.path("shaders"))
@@ -126,11 +121,6 @@ class Module(CommandLineTest):
     def test_one_function_is_to_be_seen(self):
         done = subprocess.run(["nm", "-D", "--defined-only", MODULE], capture_output=True, text=True, check=True)
         self.assertEqual([line.split()[-1] for line in done.stdout.splitlines()], ["pt_glsl_compile"])
-
-    def test_the_library_does_not_need_it(self):
-        done = subprocess.run(["ldd", PT], capture_output=True, text=True, check=True)
-        self.assertIn("libpt.so", done.stdout)
-        self.assertNotIn("glsl", done.stdout)
 
     def test_it_is_found_where_the_library_is(self):
         self.write("s.json", scene_text(3))

@@ -12,103 +12,58 @@ using cli::image_warnings;
 using cli::input_warnings;
 using Texts = std::vector<std::string>;
 
-const std::string camera = R"("camera": {"position": [0, 0, 1], "look_at": [0, 0, 0]}, )";
-const std::string materials =
-    R"("materials": {"lamp": {"emission": 1}, "blue lamp": {"emission": [0, 0, 1]}, "grey": {"diffuse": 0.5}})";
-
-Texts warnings_of(const std::string &members, const std::string &camera_members = camera) {
-    const cli::SceneFile scene =
-        cli::parse_scene(std::string("{").append(camera_members).append(members).append("}"), "s.json");
-    return input_warnings(scene, std::nullopt, 0.0);
+// Every name in `used` is the material of a sphere.
+cli::SceneFile scene_of(const std::string &materials, const std::vector<std::string> &used,
+                        const std::string &rest = "") {
+    std::string spheres;
+    for (const std::string &name : used) {
+        spheres.append(spheres.empty() ? "" : ",");
+        spheres.append(R"({"center": [9, 0, 1], "radius": 1, "material": ")").append(name).append("\"}");
+    }
+    return cli::parse_scene(R"({"materials": {)" + materials + R"(}, "spheres": [)" + spheres + "]" + rest + "}",
+                            "s.json");
 }
 
-std::string scene_of(const std::string &spheres, const std::string &planes = "") {
-    return R"("spheres": [)" + spheres + R"(], "planes": [)" + planes + "], " + materials;
+Texts warnings_of(const std::string &materials, const std::vector<std::string> &used) {
+    return input_warnings(scene_of(materials, used), std::nullopt, 0.0);
 }
-
-std::string sphere(double x, double radius, const std::string &material) {
-    return R"({"center": [)" + std::to_string(x) + R"(, 0, 1], "radius": )" + std::to_string(radius) +
-           R"(, "material": ")" + material + R"("})";
-}
-
-std::string lamp_plane(double distance) {
-    return R"({"normal": [2, 0, 0], "offset": )" + std::to_string(-2.0 * distance) + R"(, "material": "lamp"})";
-}
-
-const Texts unlit{"s.json: no surface emits light: the picture is black"};
 
 TEST(Warnings, NoLight) {
-    EXPECT_EQ(warnings_of("", ""), unlit);
-    EXPECT_EQ(warnings_of(scene_of(sphere(9, 1, "grey"))), unlit);
-    EXPECT_EQ(warnings_of(scene_of(sphere(9, 1, "blue lamp"))), Texts());
-    EXPECT_EQ(warnings_of(scene_of("", lamp_plane(3))), Texts());
+    const Texts unlit{"s.json: no surface emits light: the picture is black"};
+    EXPECT_EQ(warnings_of(R"("lamp": {"emission": 1}, "grey": {})", {"grey"}), unlit);
+    EXPECT_EQ(warnings_of(R"("lamp": {"emission": [0, 0, 1]})", {"lamp"}), Texts());
 }
 
 TEST(Warnings, MaterialsThatGiveOffMoreThanTheyReceive) {
-    const auto with = [](const std::string &more) {
-        return warnings_of(
-            R"("materials": {"lamp": {"emission": 1}, "a b": {"diffuse": [0.1, 0.9, 0.3], "specular": )" + more +
-            R"(}, "c": {"diffuse": 2}}, "planes": [{"normal": [0, 1, 0], "offset": 1,
-                           "material": "a b"}], "spheres": [{"center": [0, 5, 0], "radius": 1, "material": "lamp"}])");
+    const auto with = [](const std::string &specular) {
+        return warnings_of(R"("lamp": {"emission": 1}, "c": {"diffuse": 2},
+                              "a b": {"diffuse": [0.1, 0.9, 0.3], "specular": )" +
+                               specular + "}",
+                           {"lamp", "a b"});
     };
+    const std::string rule = ": more light is reflected than received";
     EXPECT_EQ(with("0.1"), Texts()); // In float32 0.1 + 0.9 is 1. The material c is not used.
     EXPECT_EQ(with("[0.9, 0, 0.7]"), Texts());
-    EXPECT_EQ(with("0.101"),
-              Texts{"s.json: materials[\"a b\"]: diffuse + specular = 1: more light is reflected than received"});
-    EXPECT_EQ(with("[0, 0, 0.9]"),
-              Texts{"s.json: materials[\"a b\"]: diffuse + specular = 1.2: more light is reflected than received"});
-}
-
-TEST(Warnings, ManyMaterialsAreOneWarning) {
-    std::string materials_text = R"("lamp": {"emission": 1})";
-    std::string spheres = sphere(9, 1, "lamp");
-    for (const char *name : {"a", "b", "c", "d", "e"}) {
-        materials_text.append(", \"").append(name).append(R"(": {"specular": 1.5})");
-        spheres.append(", ").append(sphere(20, 1, name));
-    }
-    EXPECT_EQ(warnings_of(R"("materials": {)" + materials_text + R"(}, "spheres": [)" + spheres + "]"),
-              Texts{"s.json: materials.a, materials.b, materials.c and 2 more: diffuse + specular = 1.5 at most: "
-                    "more light is reflected than received"});
-}
-
-TEST(Warnings, ColorsOfBytesComeWithTheirLight) {
-    EXPECT_EQ(warnings_of(R"("materials": {"lamp": {"emission": 1}, "red": {"diffuse": [160, 25, 25]}}, "spheres": [)" +
-                          sphere(9, 1, "lamp") + ", " + sphere(20, 1, "red") + "]"),
-              Texts{"s.json: materials.red: diffuse + specular = 160: more light is reflected than received; the sRGB "
-                    "color 160, 25, 25 is [0.352, 0.00972, 0.00972]"});
-}
-
-TEST(Warnings, TargetsThatSayNothing) {
-    const cli::SceneFile scene =
-        cli::parse_scene(std::string("{").append(scene_of(sphere(9, 1, "lamp"))).append("}"), "s.json");
-    EXPECT_EQ(input_warnings(scene, std::nullopt, 0.999), Texts());
-    EXPECT_EQ(input_warnings(scene, std::nullopt, 1.0).size(), 1U);
-    EXPECT_EQ(input_warnings(scene, std::nullopt, 2.0),
-              Texts{"--error: the target is 200%; two percent are written 2% or 0.02"});
+    EXPECT_EQ(with("0.101"), Texts{"s.json: materials[\"a b\"]: diffuse + specular = 1" + rule});
+    EXPECT_EQ(with("[0, 0, 0.9]"), Texts{"s.json: materials[\"a b\"]: diffuse + specular = 1.2" + rule});
+    EXPECT_EQ(
+        warnings_of(R"("lamp": {"emission": 1}, "a": {"specular": 1.5}, "b": {"specular": 1.5},
+                             "c": {"specular": 1.5}, "d": {"specular": 1.5}, "e": {"specular": 1.5})",
+                    {"lamp", "a", "b", "c", "d", "e"}),
+        Texts{"s.json: materials.a, materials.b, materials.c and 2 more: diffuse + specular = 1.5 at most" + rule});
+    EXPECT_EQ(warnings_of(R"("lamp": {"emission": 1}, "red": {"diffuse": [160, 25, 25]})", {"lamp", "red"}),
+              Texts{"s.json: materials.red: diffuse + specular = 160" + rule +
+                    "; the sRGB color 160, 25, 25 is [0.352, 0.00972, 0.00972]"});
 }
 
 TEST(Warnings, OfTheLibraryNameTheFilesField) {
-    const cli::SceneFile scene = cli::parse_scene(std::string("{")
-                                                      .append(camera)
-                                                      .append(scene_of(sphere(9, 1, "lamp")))
-                                                      .append(",\n\"capsules\": [{\"center\": [0, 0, 0], \"end\": "
-                                                              "[1e5, 0, 0], \"radius\": 1, \"material\": \"grey\"}]}"),
-                                                  "s.json");
+    const cli::SceneFile scene = scene_of(R"("lamp": {"emission": 1}, "grey": {})", {"lamp"},
+                                          ",\n\"capsules\": [{\"center\": [0, 0, 0], \"end\": [1e5, 0, 0], "
+                                          "\"radius\": 1, \"material\": \"grey\"}]");
     const cli::BrokenRule rule{"sphere_arrays", 0, "end", 0, "", "(1e+05, 0, 0)", "is too long"};
     EXPECT_EQ(input_warnings(scene, rule, 0.0), Texts{"s.json:2: capsules[0].end = (1e+05, 0, 0): is too long"});
-}
-
-TEST(Warnings, SamplesLeftOut) {
-    cli::RenderReport report{};
-    report.render.width = 1;
-    report.render.height = 4;
-    report.window = {{0, 1, 1, 2}, 1, 4};
-    report.stats.sample_count = 8;
-    const std::vector<float> two_pixels(6, 0.18F);
-    EXPECT_EQ(image_warnings(report, two_pixels), Texts());
-    report.stats.rejected_samples = 4;
-    EXPECT_EQ(image_warnings(report, two_pixels),
-              Texts{"4 samples (25%) were left out: not finite, negative or too bright"});
+    EXPECT_EQ(input_warnings(scene, std::nullopt, 0.999), Texts());
+    EXPECT_EQ(input_warnings(scene, std::nullopt, 1.0).size(), 1U);
 }
 
 TEST(Warnings, BlackPictures) {

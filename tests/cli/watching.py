@@ -3,7 +3,7 @@ import os
 import signal
 import subprocess
 
-from command_line import PATIENCE, CommandLineTest, default_signals
+from command_line import PATIENCE, CommandLineTest
 
 
 def scene_text(width, emission=1.0):
@@ -36,13 +36,8 @@ class Watching:
 
 class WatchTest(CommandLineTest):
     def watch(self, *arguments, **environment):
-        names = {name: str(value) for name, value in environment.items()}
-        process = subprocess.Popen([self.program, "render", "s.json", "--watch", "-o", "a.png", *arguments],
-                                   cwd=self.folder, env={**os.environ, **names}, text=True, preexec_fn=default_signals,
-                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-        for undo in (process.stdout.close, process.wait, process.kill):
-            self.addCleanup(undo)
-        return Watching(process)
+        return Watching(self.start("render", "s.json", "--watch", "-o", "a.png", *arguments, stderr=subprocess.STDOUT,
+                                   **environment))
 
     def save(self, name, text):
         self.write(name + "~", text)

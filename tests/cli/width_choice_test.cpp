@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <map>
 #include <string>
+#include <utility>
 
 namespace {
 
@@ -48,36 +49,28 @@ protected:
         return more;
     }
 
-    static Variables wide(const std::string &cache) {
-        return {{"LP_NATIVE_VECTOR_WIDTH", "512"}, {"MESA_SHADER_CACHE_DIR", cache}};
-    }
-
     TemporaryFolder folder;
     Variables before;
 };
 
-TEST_F(VectorWidth, IsWideWithACacheOfItsOwn) {
+TEST_F(VectorWidth, IsWideUnlessTheUserChoseAndHasACacheOfItsOwn) {
     const std::string home = folder.file("home");
     const std::string other = folder.file("x");
-    EXPECT_EQ(added({{"HOME", home}}), wide(home + "/.cache/pt/shaders-512"));
-    EXPECT_EQ(added({{"HOME", home}, {"XDG_CACHE_HOME", other}}), wide(other + "/pt/shaders-512"));
-    EXPECT_EQ(added({{"XDG_CACHE_HOME", other}}), wide(other + "/pt/shaders-512"));
-    for (const char *no_path : {"", "x"})
-        EXPECT_EQ(added({{"HOME", home}, {"XDG_CACHE_HOME", no_path}}), wide(home + "/.cache/pt/shaders-512"));
-    EXPECT_EQ(added({{"HOME", home}, {"MESA_SHADER_CACHE_DIR", other}}), wide(other + "/shaders-512"));
-}
-
-TEST_F(VectorWidth, IsWideWithoutAPlaceForACache) {
-    const Variables without_cache{{"LP_NATIVE_VECTOR_WIDTH", "512"}, {"MESA_SHADER_CACHE_DISABLE", "true"}};
     folder.write("file", "");
-    EXPECT_EQ(added({}), without_cache);
-    EXPECT_EQ(added({{"HOME", ""}}), without_cache);
-    EXPECT_EQ(added({{"HOME", folder.file("file")}}), without_cache);
-}
-
-TEST_F(VectorWidth, IsTheUsersChoice) {
+    const std::pair<Variables, std::string> caches[] = {
+        {{{"HOME", home}}, home + "/.cache/pt/shaders-512"},
+        {{{"HOME", home}, {"XDG_CACHE_HOME", other}}, other + "/pt/shaders-512"},
+        {{{"XDG_CACHE_HOME", other}}, other + "/pt/shaders-512"},
+        {{{"HOME", home}, {"XDG_CACHE_HOME", ""}}, home + "/.cache/pt/shaders-512"},
+        {{{"HOME", home}, {"XDG_CACHE_HOME", "x"}}, home + "/.cache/pt/shaders-512"},
+        {{{"HOME", home}, {"MESA_SHADER_CACHE_DIR", other}}, other + "/shaders-512"}};
+    for (const auto &[variables, cache] : caches)
+        EXPECT_EQ(added(variables), (Variables{{"LP_NATIVE_VECTOR_WIDTH", "512"}, {"MESA_SHADER_CACHE_DIR", cache}}));
+    const Variables without_cache{{"LP_NATIVE_VECTOR_WIDTH", "512"}, {"MESA_SHADER_CACHE_DISABLE", "true"}};
+    for (const Variables &variables : {Variables{}, Variables{{"HOME", ""}}, Variables{{"HOME", folder.file("file")}}})
+        EXPECT_EQ(added(variables), without_cache);
     for (const char *value : {"256", "512", ""})
-        EXPECT_EQ(added({{"HOME", folder.file("home")}, {"LP_NATIVE_VECTOR_WIDTH", value}}), Variables()) << value;
+        EXPECT_EQ(added({{"HOME", home}, {"LP_NATIVE_VECTOR_WIDTH", value}}), Variables()) << value;
 }
 
 TEST_F(VectorWidth, ComesFromUndamagedFilesOfThisProcessor) {

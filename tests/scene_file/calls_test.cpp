@@ -48,23 +48,6 @@ std::string refusal(const pt_scene_file_info &info, pt_result expected) {
     return pt_last_scene_error();
 }
 
-pt_broken_rule rule_of(const char *subject, std::int64_t index, const char *member) {
-    auto rule = sized<pt_broken_rule>();
-    rule.subject = subject;
-    rule.index = index;
-    rule.member = member;
-    rule.component = -1;
-    rule.value = "-1";
-    rule.rule = "must be > 0";
-    return rule;
-}
-
-pt_rule_source source_of(const File &file, const pt_broken_rule &rule) {
-    auto source = sized<pt_rule_source>();
-    EXPECT_EQ(pt_find_rule_source(file.get(), &rule, &source), PT_OK) << pt_last_scene_error();
-    return source;
-}
-
 TEST(SceneFileCalls, WriteNoMoreThanStructSize) {
     const File file = opened(info_of(room));
     pt_render render{};
@@ -114,17 +97,25 @@ TEST(SceneFileCalls, RefuseWrongInfos) {
 // Callers may pass rules about fields that this file does not have.
 TEST(SceneFileCalls, TakeAnyRule) {
     const File file = opened(info_of(room));
+    auto rule = sized<pt_broken_rule>();
+    auto source = sized<pt_rule_source>();
+    const auto expect_message = [&] {
+        EXPECT_EQ(pt_find_rule_source(file.get(), &rule, &source), PT_OK) << pt_last_scene_error();
+        EXPECT_TRUE(std::string(source.message).starts_with("s.json"));
+    };
+    expect_message();
+    rule.component = -1;
+    rule.member = "material";
     for (const char *subject : {"sphere_arrays", "materials", "spheres", "planes", "", "nothing"}) {
         for (const std::int64_t index : {std::int64_t{-1}, std::int64_t{0}, std::int64_t{1}, INT64_MAX, INT64_MIN}) {
             for (const char *value : {"-1", "7", "99999999999999999999", "x", ""}) {
-                pt_broken_rule rule = rule_of(subject, index, "material");
+                rule.subject = subject;
+                rule.index = index;
                 rule.value = value;
-                EXPECT_TRUE(std::string(source_of(file, rule).message).starts_with("s.json"));
+                expect_message();
             }
         }
     }
-    pt_broken_rule empty = sized<pt_broken_rule>();
-    EXPECT_TRUE(std::string(source_of(file, empty).message).starts_with("s.json"));
 }
 
 TEST(SceneFileCalls, KeepAnErrorPerThread) {
