@@ -105,12 +105,10 @@ class StandardOutput(ImagesTest):
         self.render("-o", "-", "--format", "png", "--preview-every", "1", code=2,
                     error="--preview-every: needs -o and the name of a file")
 
-    def test_its_format_has_to_be_given(self):
+    def test_it_gets_one_thing_of_a_given_format(self):
         self.render("-o", "-", code=2, error="-o -: standard output needs --format, one of exr, png, jpg, jpeg")
         self.render("-o", "a.png", "--format", "png", code=2, error="--format: must be used with `-o -`")
         self.render("-o", "-", "--format", "tiff", code=2, error='unknown format "tiff"')
-
-    def test_one_thing_goes_there(self):
         self.render("-o", "-", "-o", "-", "--format", "png", code=2, error="is the same file as -o -")
         self.render("-o", "-", "--format", "png", "--stats", "-", code=2, error="--stats -: is the same file as -o -")
         self.render("-o", "-", "--format", "png", "--watch", code=2, error="-o -: --watch needs a file")

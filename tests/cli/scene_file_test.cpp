@@ -9,7 +9,6 @@
 #include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 namespace {
 
@@ -23,11 +22,6 @@ std::string refusal(const std::string &text) {
     EXPECT_EQ(refused.code, cli::ExitCode::scene);
     EXPECT_TRUE(refused.message.starts_with("s.json:")) << refused.message;
     return refused.message.substr(7);
-}
-
-template <typename Number, std::size_t Count>
-std::vector<Number> list(const Number (&values)[Count]) {
-    return {values, values + Count};
 }
 
 constexpr const char *small = R"({
@@ -60,8 +54,8 @@ TEST(SceneFile, ReadsKeysThatNoShippedSceneHas) {
 
 TEST(SceneFile, EmptySceneHasDefaults) {
     const SceneFile scene = parse_scene("{}", "s.json");
-    EXPECT_EQ(list(scene.camera.position), (std::vector<double>{0, 0, 1}));
-    EXPECT_EQ(list(scene.camera.target), (std::vector<double>{0, 0, 0}));
+    EXPECT_EQ(std::to_array(scene.camera.position), (std::array{0.0, 0.0, 1.0}));
+    EXPECT_EQ(std::to_array(scene.camera.target), (std::array{0.0, 0.0, 0.0}));
     EXPECT_EQ(scene.render.width, 512U);
     EXPECT_EQ(scene.render.height, 512U);
     EXPECT_EQ(scene.render.max_path_length, 6U);
@@ -75,10 +69,6 @@ std::string with_sphere(const std::string &members) {
 
 std::string with_camera(const std::string &members) {
     return R"({"camera":{"position":[0,0,0],"look_at":[0,0,1],)" + members + "}}";
-}
-
-TEST(SceneFile, AShutterMayBeAnInstant) {
-    EXPECT_EQ(parse_scene(with_camera(R"("shutter":[0, 0])"), "").camera.shutter_close, 0.0);
 }
 
 TEST(SceneFile, SyntaxErrorsHaveLineAndColumn) {

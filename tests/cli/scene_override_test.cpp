@@ -151,13 +151,6 @@ TEST(Animation, MistakesAreRefused) {
                   std::string("s.json:1: animation[\"camera.position\"]") + expected);
 }
 
-TEST(Animation, MistakesOfAFrameNameIt) {
-    const SceneFile scene = cli::parse_scene(R"({"animation": {"spheres[3].radius": [[0, 1]]}})", "s.json");
-    const Refusal refused = refusal_of([&] { cli::parse_scene("{}", "s.json", pt::overrides_of_frame(scene, 7)); });
-    EXPECT_EQ(refused.code, cli::ExitCode::scene);
-    EXPECT_EQ(refused.message, "s.json: animation[\"spheres[3].radius\"] in frame 7: the scene has no spheres[3]");
-}
-
 TEST(FrameRange, IsReadFromText) {
     EXPECT_EQ(cli::parse_frames("5").value().last, 5U);
     EXPECT_EQ(cli::parse_frames("5-5").value().first, 5U);

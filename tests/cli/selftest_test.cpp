@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numbers>
 #include <vector>
 
 namespace {
@@ -26,6 +25,7 @@ std::vector<SelftestScene> all_scenes() {
 
 TEST(SelftestScene, WrongImagesFail) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
+    int scenes_without_noise = 0;
     for (const SelftestScene &scene : all_scenes()) {
         SCOPED_TRACE(scene.name);
         EXPECT_LT(scene.bound(), 0.02) << "judges too mildly";
@@ -46,34 +46,15 @@ TEST(SelftestScene, WrongImagesFail) {
                 radiance[i] *= 1.03F;
             EXPECT_FALSE(scene.judge(radiance).passed()) << channel;
         }
-    }
-    EXPECT_FALSE((cli::SelftestCheck{"function", "sine", std::nan(""), 2.5, "ulp", ""}).passed());
-}
-
-TEST(SelftestScene, WithoutNoiseEveryPixelCounts) {
-    int scene_count = 0;
-    for (const SelftestScene &scene : cli::selftest_scenes()) {
         if (scene.relative_std == 0.0) {
-            ++scene_count;
-            std::vector<float> radiance = image_of(scene, scene.expected);
+            ++scenes_without_noise;
+            std::vector<float> radiance = right;
             radiance[100] *= 1.00001F;
-            EXPECT_FALSE(scene.judge(radiance).passed()) << scene.name;
+            EXPECT_FALSE(scene.judge(radiance).passed()) << "every pixel counts";
         }
     }
-    EXPECT_EQ(scene_count, 2);
-}
-
-TEST(SelftestScene, RecedingLampByQuadrature) {
-    const SelftestScene scene = cli::selftest_scenes().back();
-    ASSERT_EQ(scene.name, "receding lamp");
-    const double side = 2.0 * std::tan(0.5 * scene.scene.camera.vertical_fov);
-    constexpr int steps = 10000;
-    double sum = 0.0;
-    for (int i = 0; i < steps; ++i) {
-        const double z = scene.scene.spheres[0].center[2] + (i + 0.5) / steps * scene.scene.spheres[0].motion[2];
-        sum += std::numbers::pi / (z * z - 1.0) / (side * side);
-    }
-    EXPECT_NEAR(scene.expected, sum / steps, 1e-8);
+    EXPECT_EQ(scenes_without_noise, 2);
+    EXPECT_FALSE((cli::SelftestCheck{"function", "sine", std::nan(""), 2.5, "ulp", ""}).passed());
 }
 
 } // namespace

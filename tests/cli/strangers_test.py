@@ -80,7 +80,6 @@ class Texts(CommandLineTest):
 
     def test_names_in_scenes(self):
         for scene, shown in (({self.STRANGE: {}}, f'unknown key "{self.SHOWN}"'),
-                             ({"camera": {self.STRANGE: 1}}, f'camera: unknown key "{self.SHOWN}"'),
                              ({"render": {"sampler": self.STRANGE}}, f'unknown sampler "{self.SHOWN}"'),
                              ({"a\0b": {}}, 'unknown key "a<U+0000>b"'),
                              ({"spheres": [{"center": [0, 0, 0], "radius": 1, "material": self.STRANGE}]},
