@@ -1,4 +1,5 @@
 import importlib.util
+import itertools
 import unittest
 
 import numpy as np
@@ -37,18 +38,14 @@ def aspect_of(layout):
 
 class Fit(unittest.TestCase):
     def test_every_ball_is_in_the_picture_and_one_pair_of_sides_is_touched(self):
-        for kind in ("cloud", "layer", "needle", "one", "far"):
-            centers, radii = balls(kind)
-            for view in (*VIEWS, (1, -2, 0.5)):
-                for projection in ("perspective", "orthographic"):
-                    for size in (None, (300, 100), (100, 300)):
-                        with self.subTest(kind=kind, view=view, projection=projection, size=size):
-                            _, layout = layout_of(Particles(centers), radius=radii, view=view, projection=projection, size=size)
-                            sides = [float(rim.max()) for rim in rims(layout.camera, aspect_of(layout), centers, radii)]
-                            used = 1 - 2 * MARGIN
-                            self.assertLess(max(sides), used + 1e-9)
-                            touched = [abs(low - used) < 1e-9 and abs(high - used) < 1e-9 for low, high in (sides[:2], sides[2:])]
-                            self.assertTrue(any(touched), sides)
+        for kind, view, projection, size in itertools.product(("cloud", "layer", "needle", "one", "far"), (*VIEWS, (1, -2, 0.5)),
+                                                              ("perspective", "orthographic"), (None, (300, 100), (100, 300))):
+            with self.subTest(kind=kind, view=view, projection=projection, size=size):
+                centers, radii = balls(kind)
+                _, layout = layout_of(Particles(centers), radius=radii, view=view, projection=projection, size=size)
+                sides = np.array([rim.max() for rim in rims(layout.camera, aspect_of(layout), centers, radii)]) - (1 - 2 * MARGIN)
+                self.assertLess(sides.max(), 1e-9)
+                self.assertTrue((abs(sides.reshape(2, 2)) < 1e-9).all(axis=1).any(), sides)
 
     def test_corners_of_a_cell_are_in_the_picture_too(self):
         cell = Cell(np.array([-3.0, 0, 0]), np.array([[6.0, 0, 0], [2, 5, 0], [0, 1, 4]]), np.ones(3, bool))
@@ -146,10 +143,8 @@ class Series(unittest.TestCase):
         centers, radii = balls("cloud", 30)
         for view, up in (("three-quarter", "z"), ("front", "y"), ((1, 2, 2), "-x")):
             staged = list(turntable(Particles(centers), 40, Options(radius=radii, view=view, up=up)))
-            spans = []
-            for each in staged:
-                self.assertEqual(each.layout.size, staged[0].layout.size)
-                spans.append([float(rim.max()) for rim in rims(each.layout.camera, aspect_of(each.layout), centers, radii)])
+            self.assertEqual(len({each.layout.size for each in staged}), 1)
+            spans = [[rim.max() for rim in rims(each.layout.camera, aspect_of(each.layout), centers, radii)] for each in staged]
             self.assertLess(np.max(spans), 1 - 2 * MARGIN + 1e-9)
             # The farthest ball may lie between two of the 40 turns, so its reach is too small by up to (pi / 40)^2 / 2.
             self.assertGreater(np.max(spans), 0.995 * (1 - 2 * MARGIN))
