@@ -1,11 +1,10 @@
 // Images must be finite, without rejected samples, and independent of the split over calls.
-#include "tests/fuzz/examine.h"
-
 #include "lib/base/error.h"
 #include "lib/scene/checked_scene.h"
 #include "lib/scene/render_settings.h"
 #include "lib/view/camera_rules.h"
 #include "lib/view/view.h"
+#include "tests/fuzz/input.h"
 #include "tests/fuzz/on_device.h"
 #include "tests/support/checked_scene_of.h"
 
@@ -13,6 +12,7 @@
 #include <cmath>
 #include <cstring>
 #include <optional>
+#include <random>
 #include <string>
 
 namespace fuzz {
@@ -55,18 +55,9 @@ bool accepted(pt_result result) {
 }
 
 bool set_all(const Input &input) {
-    const SizedStruct scene(input.scene(), input.struct_sizes[0], input.tail_byte);
-    const SizedStruct camera(input.camera, input.struct_sizes[1], input.tail_byte);
-    const SizedStruct render(input.render, input.struct_sizes[2], input.tail_byte);
-    return accepted(pt_set_scene(context(), scene.as<pt_scene>())) &&
-           accepted(pt_set_camera(context(), camera.as<pt_camera>())) &&
-           accepted(pt_set_render(context(), render.as<pt_render>()));
-}
-
-void require_stats(const Input &input) {
-    require(stats().sample_count == input.sample_count, "all samples were taken");
-    require(stats().rejected_samples == 0 || may_lose_samples(input),
-            "samples were left out: " + std::to_string(stats().rejected_samples));
+    const pt_scene scene = input.scene();
+    return accepted(pt_set_scene(context(), &scene)) && accepted(pt_set_camera(context(), &input.camera)) &&
+           accepted(pt_set_render(context(), &input.render));
 }
 
 void examine_one(const Input &input) {
@@ -76,7 +67,8 @@ void examine_one(const Input &input) {
     const Pixels radiance = read_radiance();
     require(std::ranges::none_of(read_pixels(PT_QUANTITY_STANDARD_ERROR), [](float x) { return std::isnan(x); }),
             "standard errors are numbers");
-    require_stats(input);
+    require(stats().sample_count == input.sample_count, "all samples were taken");
+    require(stats().rejected_samples == 0 || may_lose_samples(input), "no samples were left out");
     if (input.sample_count == 1)
         return;
     require(set_all(input), "what was accepted is accepted again");
@@ -97,19 +89,58 @@ std::optional<pt::Features> features(const Input &input) {
     }
 }
 
+// The kernel's features usually stay the same.
+void change_one_number(Input &input, std::mt19937_64 &random) {
+    std::vector<double *> lengths;
+    std::vector<float *> colors;
+    const auto add = [](auto &all, auto &values) {
+        for (auto &value : values)
+            all.push_back(&value);
+    };
+    add(lengths, input.camera.position);
+    add(lengths, input.camera.target);
+    for (pt_sphere &sphere : input.spheres) {
+        add(lengths, sphere.center);
+        lengths.push_back(&sphere.radius);
+        if (sphere.motion[0] != 0.0)
+            add(lengths, sphere.motion);
+    }
+    for (pt_plane &plane : input.planes) {
+        add(lengths, plane.normal);
+        lengths.push_back(&plane.offset);
+    }
+    for (pt_material &material : input.materials) {
+        if (material.emission[0] > 0.0F)
+            add(colors, material.emission);
+        if (material.glossiness > 0.0F)
+            colors.push_back(&material.glossiness);
+    }
+    const std::array words{random(), random(), random()};
+    Numbers numbers(std::as_bytes(std::span(words)));
+    if (numbers.one_in(4) && !colors.empty())
+        *colors[random() % colors.size()] = numbers.color();
+    else
+        *lengths[random() % lengths.size()] = numbers.length();
+}
+
 } // namespace
 
-const std::uint32_t neighbour_count = 255;
-
-// Skips inputs that need another kernel, because building a kernel takes long.
-void examine(std::span<const Input> family) {
-    const Input &first = family.front();
-    const std::optional<pt::Features> first_features = features(first);
-    if (!can_be_rendered(first))
+// Most changed inputs need the same kernel. Others are skipped, because building a kernel takes long.
+void examine(const Input &input, std::span<const std::uint8_t> bytes) {
+    constexpr std::uint32_t neighbour_count = 255;
+    constexpr std::uint32_t most_changes = 4;
+    if (!can_be_rendered(input))
         return;
-    for (const Input &input : family)
-        if (features(input) == first_features)
-            examine_one(input);
+    examine_one(input);
+    std::seed_seq seed(bytes.begin(), bytes.end());
+    std::mt19937_64 random(seed);
+    for (std::uint32_t i = 0; i < neighbour_count; ++i) {
+        Input neighbour = input;
+        for (std::uint64_t change = random() % most_changes; change < most_changes; ++change)
+            change_one_number(neighbour, random);
+        if (features(neighbour) == features(input))
+            examine_one(neighbour);
+    }
 }
 
 } // namespace fuzz

@@ -7,9 +7,7 @@
 
 #include <pt/film.h>
 
-#include <cstdint>
 #include <string_view>
-#include <vector>
 
 namespace {
 
@@ -39,9 +37,7 @@ const Bytes &own_film() {
         const pt_material material[] = {{{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {1, 1, 1}, 0, 0}};
         const pt_sphere sphere[] = {{{0, 0, -3}, 1, {0, 0, 0}, 0, 0}};
         const pt_scene scene = scene_of(material, sphere, {});
-        pt_camera camera{};
-        camera.struct_size = sizeof camera;
-        camera.target[2] = -1;
+        const pt_camera camera = camera_at({0, 0, 0}, {0, 0, -1});
         fuzz::require_done(pt_set_scene(fuzz::context(), &scene));
         fuzz::require_done(pt_set_camera(fuzz::context(), &camera));
         clear();
@@ -51,15 +47,12 @@ const Bytes &own_film() {
     return own;
 }
 
-std::span<const std::byte> identity_of(const Bytes &film) {
-    const std::string_view text(reinterpret_cast<const char *>(film.data()), film.size());
-    return std::span(film).first(text.find("\ntile ") + 1);
-}
-
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
-    const Bytes added_film = fuzz::film_input(identity_of(own_film()), std::as_bytes(std::span(data, size)));
+    const std::string_view text(reinterpret_cast<const char *>(own_film().data()), own_film().size());
+    const auto identity = std::span(own_film()).first(text.find("\ntile ") + 1);
+    const Bytes added_film = fuzz::film_input(identity, std::as_bytes(std::span(data, size)));
     const pt_result result = add(added_film);
     if (result != PT_OK) {
         fuzz::require(result == PT_ERROR_INCOMPATIBLE, pt_result_name(result));

@@ -1,5 +1,4 @@
 // An accepted file must have all of its numbers.
-#include "tests/fuzz/mutation.h"
 #include "tests/fuzz/require.h"
 
 #include "lib/base/error.h"

@@ -2,11 +2,11 @@
 
 #include "tests/fuzz/require.h"
 #include "tests/support/image_target.h"
+#include "tests/support/scene_of.h"
 
 #include <pt/pt.h>
 #include <pt/stats.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -16,24 +16,19 @@
 
 namespace fuzz {
 
-struct DestroyContext {
-    void operator()(pt_context *context) const { pt_destroy(context); }
-};
-
 inline void complain(void *, std::int32_t level, const char *line) {
     require(level == PT_LOG_INFO, line);
 }
 
 inline pt_context *context() {
-    static const std::unique_ptr<pt_context, DestroyContext> created = [] {
-        pt_create_info info{};
-        info.struct_size = sizeof info;
+    static const std::unique_ptr<pt_context, decltype(&pt_destroy)> created = [] {
+        auto info = sized<pt_create_info>();
         info.flags = std::getenv("PT_TEST_NO_VALIDATION") ? 0 : PT_CREATE_VALIDATION;
         info.device = std::getenv("PT_TEST_DEVICE");
         info.log = complain;
         pt_context *context = nullptr;
         require(pt_create(&info, &context) == PT_OK, pt_last_error(nullptr));
-        return std::unique_ptr<pt_context, DestroyContext>(context);
+        return std::unique_ptr<pt_context, decltype(&pt_destroy)>(context, &pt_destroy);
     }();
     return created.get();
 }
@@ -43,7 +38,7 @@ inline void require_done(pt_result result) {
 }
 
 inline void take_samples(std::uint32_t count) {
-    const pt_accumulate_info info{sizeof info, count, nullptr, nullptr, 0, 0, nullptr, 0, 0, {}};
+    const pt_accumulate_info info = accumulate_info(count);
     require_done(pt_accumulate(context(), &info));
 }
 
@@ -59,14 +54,13 @@ inline Pixels read_pixels(std::uint32_t quantity) {
 
 inline Pixels read_radiance() {
     const Pixels radiance = read_pixels(PT_QUANTITY_RADIANCE);
-    require(std::ranges::all_of(radiance, [](float x) { return x >= 0.0F && std::isfinite(x); }),
-            "radiance is finite and not negative");
+    for (const float x : radiance)
+        require(x >= 0.0F && std::isfinite(x), "radiance is finite and not negative");
     return radiance;
 }
 
 inline pt_stats stats() {
-    pt_stats stats{};
-    stats.struct_size = sizeof stats;
+    auto stats = sized<pt_stats>();
     require_done(pt_get_stats(context(), &stats));
     return stats;
 }

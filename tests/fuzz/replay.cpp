@@ -1,28 +1,24 @@
 // Runs a target without libFuzzer. `replay CORPUS_FOLDER COUNT` runs the corpus and COUNT reproducible mutations. A
 // fatal input is saved as ./failed-input.
-#include "tests/fuzz/mutation.h"
-
 #include <algorithm>
-#include <charconv>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <random>
-#include <string_view>
 #include <vector>
 
 #include <fcntl.h>
 #include <unistd.h>
 
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size);
+
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
-
-constexpr std::size_t max_size = 4096;
-
-std::mt19937 mutation_random;
 
 // Read by the signal handler.
 const Bytes *present_input = nullptr;
@@ -53,51 +49,31 @@ void run(const Bytes &input) {
     LLVMFuzzerTestOneInput(input.data(), input.size());
 }
 
-Bytes mutated(const std::vector<Bytes> &corpus) {
-    Bytes input = corpus[mutation_random() % corpus.size()];
-    std::size_t size = std::min(input.size(), max_size);
-    input.resize(max_size);
-    const auto mutate = [&](unsigned int seed) {
-        return LLVMFuzzerCustomMutator ? LLVMFuzzerCustomMutator(input.data(), size, max_size, seed)
-                                       : LLVMFuzzerMutate(input.data(), size, max_size);
-    };
-    for (std::uint32_t changes = 1 + mutation_random() % 8; changes > 0; --changes)
-        size = mutate(static_cast<unsigned int>(mutation_random()));
-    input.resize(size);
+// Half of the new bytes are copies, which texts more often accept.
+Bytes changed(Bytes input, std::mt19937 &random) {
+    for (std::uint32_t changes = 1 + random() % 4; changes > 0 && !input.empty(); --changes) {
+        const auto place = input.begin() + random() % input.size();
+        const std::uint8_t byte =
+            random() % 2 == 0 ? input[random() % input.size()] : static_cast<std::uint8_t>(random());
+        const std::uint32_t kind = random() % 4;
+        if (kind == 0)
+            input.insert(place, byte);
+        else if (kind == 1)
+            input.erase(place);
+        else
+            *place = byte;
+    }
     return input;
 }
 
 } // namespace
 
-std::size_t LLVMFuzzerMutate(std::uint8_t *data, std::size_t size, std::size_t max_size) {
-    const std::size_t place = mutation_random() % (size + 1);
-    const auto byte = static_cast<std::uint8_t>(mutation_random());
-    switch (mutation_random() % 4) {
-    case 0:
-        if (place == size)
-            return size;
-        std::copy(data + place + 1, data + size, data + place);
-        return size - 1;
-    case 1:
-        if (size == max_size)
-            return size;
-        std::copy_backward(data + place, data + size, data + size + 1);
-        data[place] = byte;
-        return size + 1;
-    default:
-        if (place < size)
-            data[place] = byte;
-        return size;
-    }
-}
-
 int main(int argument_count, char **arguments) {
-    std::uint32_t count = 0;
-    const std::string_view count_text = argument_count == 3 ? arguments[2] : "";
-    if (std::from_chars(count_text.data(), count_text.data() + count_text.size(), count).ec != std::errc{}) {
+    if (argument_count != 3) {
         std::fputs("usage: CORPUS_FOLDER COUNT\n", stderr);
         return 2;
     }
+    const unsigned long count = std::strtoul(arguments[2], nullptr, 10);
     for (const int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL})
         std::signal(signal, save_present_input);
     const std::vector<Bytes> corpus = read_corpus(arguments[1]);
@@ -107,7 +83,8 @@ int main(int argument_count, char **arguments) {
     }
     for (const Bytes &input : corpus)
         run(input);
-    for (std::uint32_t i = 0; i < count; ++i)
-        run(mutated(corpus));
-    std::printf("%zu files and %u changes of them\n", corpus.size(), count);
+    std::mt19937 random;
+    for (unsigned long i = 0; i < count; ++i)
+        run(changed(corpus[random() % corpus.size()], random));
+    std::printf("%zu files and %lu changes of them\n", corpus.size(), count);
 }

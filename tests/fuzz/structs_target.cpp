@@ -1,7 +1,7 @@
-#include "tests/fuzz/examine.h"
+#include "tests/fuzz/input.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
     const std::span bytes(data, size);
-    fuzz::examine_neighbourhood(fuzz::decoded_input(fuzz::ByteReader(bytes)), bytes);
+    fuzz::examine(fuzz::decoded_input(fuzz::Numbers(std::as_bytes(bytes))), bytes);
     return 0;
 }

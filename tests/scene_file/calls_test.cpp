@@ -1,3 +1,5 @@
+#include "tests/support/sized.h"
+
 #include <pt/scene_file.h>
 
 #include <gtest/gtest.h>
@@ -19,13 +21,6 @@ struct Close {
     void operator()(pt_scene_file *file) const { pt_close_scene_file(file); }
 };
 using File = std::unique_ptr<pt_scene_file, Close>;
-
-template <typename Struct>
-Struct sized() {
-    Struct value{};
-    value.struct_size = sizeof value;
-    return value;
-}
 
 pt_scene_file_info info_of(const std::string &text) {
     auto info = sized<pt_scene_file_info>();
