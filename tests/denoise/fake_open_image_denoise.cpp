@@ -40,33 +40,26 @@ std::string wish() {
     return text ? text : "";
 }
 
-float mean_about(const Filter &filter, const float *color, std::ptrdiff_t x, std::ptrdiff_t y, std::size_t channel,
-                 std::ptrdiff_t radius, float most) {
-    const auto width = static_cast<std::ptrdiff_t>(filter.width);
-    const auto height = static_cast<std::ptrdiff_t>(filter.height);
-    double sum = 0.0;
-    int count = 0;
-    for (std::ptrdiff_t row = std::max<std::ptrdiff_t>(y - radius, 0); row <= std::min(y + radius, height - 1); ++row)
-        for (std::ptrdiff_t column = std::max<std::ptrdiff_t>(x - radius, 0); column <= std::min(x + radius, width - 1);
-             ++column, ++count)
-            sum += std::min(color[static_cast<std::size_t>(row * width + column) * 3 + channel], most);
-    return static_cast<float>(sum / count);
-}
-
 void run(const Filter &filter) {
-    const std::ptrdiff_t radius = wish() == "identity" ? 0 : 2;
-    const std::ptrdiff_t shift = wish() == "shift" ? 1 : 0;
-    const float factor = wish() == "darken" ? 0.95F : 1.0F;
+    const int radius = wish() == "identity" ? 0 : 2;
+    const int shift = wish() == "shift" ? 1 : 0;
+    const double factor = wish() == "darken" ? 0.95 : 1.0;
     const float most = wish() == "cut" ? 4.0F : std::numeric_limits<float>::infinity();
-    const float *const color = filter.images.at("color")->data();
+    const Buffer &color = *filter.images.at("color");
     Buffer &output = *filter.images.at("output");
-    for (std::size_t pixel = 0; pixel < filter.width * filter.height; ++pixel)
-        for (std::size_t channel = 0; channel < 3; ++channel) {
-            const auto x = static_cast<std::ptrdiff_t>(pixel % filter.width) + shift;
-            output[3 * pixel + channel] =
-                factor * mean_about(filter, color, std::min(x, static_cast<std::ptrdiff_t>(filter.width) - 1),
-                                    static_cast<std::ptrdiff_t>(pixel / filter.width), channel, radius, most);
-        }
+    const auto width = static_cast<int>(filter.width);
+    const auto height = static_cast<int>(filter.height);
+    for (std::size_t i = 0; i < 3 * filter.width * filter.height; ++i) {
+        const auto pixel = static_cast<int>(i / 3);
+        const int x = std::min(pixel % width + shift, width - 1);
+        const int y = pixel / width;
+        double sum = 0.0;
+        int count = 0;
+        for (int row = std::max(y - radius, 0); row <= std::min(y + radius, height - 1); ++row)
+            for (int column = std::max(x - radius, 0); column <= std::min(x + radius, width - 1); ++column, ++count)
+                sum += std::min(color[static_cast<std::size_t>(row * width + column) * 3 + i % 3], most);
+        output[i] = static_cast<float>(factor * sum / count);
+    }
 }
 
 } // namespace

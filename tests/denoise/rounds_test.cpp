@@ -8,7 +8,6 @@ namespace {
 
 struct Rounds {
     explicit Rounds(std::uint32_t sample_count) {
-        info.struct_size = sizeof info;
         info.sample_count = sample_count;
         info.render = [](void *user, std::uint32_t end) { return static_cast<Rounds *>(user)->add(end); };
         info.render_user = this;
@@ -16,8 +15,6 @@ struct Rounds {
 
     std::int32_t add(std::uint32_t end) {
         std::this_thread::sleep_for(duration);
-        if (ends.size() == most_rounds)
-            return 7;
         ends.push_back(end);
         denoising.first[0] = static_cast<float>(end);
         return 0;
@@ -29,8 +26,7 @@ struct Rounds {
     }
 
     Denoising denoising{0, much_noise};
-    pt_rounds_info info{};
-    std::size_t most_rounds = SIZE_MAX;
+    pt_rounds_info info = sized<pt_rounds_info>();
     std::chrono::milliseconds duration{0};
     std::vector<std::uint32_t> ends;
 };
@@ -59,32 +55,6 @@ TEST(DenoiseRounds, FitTheTime) {
     rounds.duration = std::chrono::milliseconds(250);
     EXPECT_EQ(rounds.run(), PT_LIMIT_REACHED);
     EXPECT_LE(rounds.ends.back(), 19U);
-}
-
-TEST(DenoiseRounds, EndAtTheTargetError) {
-    Rounds once(16);
-    ASSERT_EQ(once.run(), PT_OK);
-    const double target = once.denoising.error.relative_rmse_high;
-    for (const bool reaches : {false, true}) {
-        Rounds rounds(16);
-        rounds.info.stopping.target_error = reaches ? target : std::nextafter(target, 0.0);
-        EXPECT_EQ(rounds.run(), reaches ? PT_TARGET_REACHED : PT_OK);
-        EXPECT_EQ(rounds.denoising.denoised, once.denoising.denoised);
-    }
-}
-
-TEST(DenoiseRounds, KeepTheLastPictureIfStopped) {
-    Rounds rounds(100);
-    rounds.info.stopping.target_error = 1e-9;
-    rounds.most_rounds = 0;
-    EXPECT_EQ(rounds.run(), PT_CANCELLED);
-    EXPECT_EQ(rounds.denoising.denoised[0], -1.0F);
-    rounds.most_rounds = 2;
-    EXPECT_EQ(rounds.run(), PT_CANCELLED);
-    EXPECT_EQ(rounds.ends, (std::vector<std::uint32_t>{16, 24}));
-    const Pixels stopped = rounds.denoising.denoised;
-    ASSERT_EQ(pt_denoise(&rounds.denoising.info, &rounds.denoising.error), PT_OK);
-    EXPECT_EQ(stopped, rounds.denoising.denoised);
 }
 
 TEST(DenoiseRounds, RefuseWhatBreaksARule) {
