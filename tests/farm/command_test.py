@@ -1,5 +1,3 @@
-"""Argument: the program pt."""
-
 import contextlib
 import io
 import json
@@ -23,8 +21,6 @@ from pictures import SCENE_FILE
 from pt import farm
 from pt.farm import _command
 
-if __name__ == "__main__":
-    os.environ["PT_PROGRAM"] = os.path.abspath(sys.argv.pop(1))
 PT = os.environ["PT_PROGRAM"]
 SCENE = {**SCENE_FILE, "film": {"width": 96, "height": 60}, "animation": {"camera.position": [[0, [0, 1, 5]], [2, [1, 1, 5]]]}}
 ENDLESS = 10**8
@@ -90,60 +86,45 @@ class Command(unittest.TestCase):
         self.assertEqual(os.listdir(), ["scene.json"])
 
     def test_pictures_and_film(self):
-        self.farm("-o", "a.exr", "-o", "a.png", "--film", "a.ptfilm", "--layers", "standard-error", "--spp", "40",
-                  "-q", "--set", "film.exposure=-1", "--tonemap", "agx", "--gamma", "2", "--white", "1,0.5,0.8")
-        self.pt("render", "scene.json", "-o", "b.exr", "-o", "b.png", "--layers", "standard-error", "--spp", "40",
-                "--set", "film.exposure=-1", "--tonemap", "agx", "--gamma", "2", "--white", "1,0.5,0.8")
+        np.save("c.npy", np.array([[0, 1, 0], [1, 1, 0]], np.float32))
+        words = ["--layers", "standard-error", "--spp", "40", "--set", 'spheres[1].center="c.npy"', "--set",
+                 "film.exposure=-1", "--tonemap", "agx", "--gamma", "2", "--white", "1,0.5,0.8"]
+        self.farm("-o", "a.exr", "-o", "a.png", "--film", "a.ptfilm", *words, "-q")
+        self.pt("render", "scene.json", "-o", "b.exr", "-o", "b.png", *words)
         for one, other in (("a.exr", "b.exr"), ("a.png", "b.png")):
             self.same(one, other)
         self.pt("compare", "--layer", "standard_error", "a.exr", "b.exr", "--max-mse", "0")
         self.pt("merge", "a.ptfilm", "-o", "c.exr", "--layers", "standard-error")
         self.same("a.exr", "c.exr")
 
-    def test_a_scene_from_standard_input(self):
-        os.makedirs("in")
-        words = ["--size", "16x8", "--spp", "2"]
-        with open("scene.json") as file:
-            done = subprocess.run([sys.executable, "-m", "pt.farm._command", "render", "-", "-o", "a.exr", *words, "-q",
-                                   "--scheduler", self.cluster.scheduler_address], stdin=file, stderr=subprocess.PIPE, text=True)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.pt("render", "scene.json", "-o", "b.exr", *words)
-        self.same("a.exr", "b.exr")
-
-    def test_columns_go_to_the_workers(self):
-        np.save("c.npy", np.array([[0, 1, 0], [1, 1, 0]], np.float32))
-        words = ["--set", 'spheres[1].center="c.npy"', "--size", "16x8", "--spp", "2"]
-        self.farm("-o", "a.exr", *words, "-q")
-        self.pt("render", "scene.json", "-o", "b.exr", *words)
-        self.same("a.exr", "b.exr")
-
     def test_what_workers_refuse(self):
         said = self.farm("-o", "a.exr", "--set", "spheres[1].radius=-1", "-q", code=2)
         self.assertRegex(said, r"pt-farm: spheres\[1\].radius=-1: spheres\[1\].radius = -1: must be > 0")
 
     def test_target_errors(self):
-        said = self.farm("-o", "a.exr", "--spp", "20", "--error", "0.01%", code=7)
-        self.assertRegex(said, r"spp, error \d.*, 1 workers")
-        self.pt("render", "scene.json", "-o", "b.exr", "--spp", "20", "--error", "0.01%", code=7)
+        words = ["--spp", "20", "--error", "0.01%"]
+        said = self.farm("-o", "a.exr", *words, code=7)
+        self.pt("render", "scene.json", "-o", "b.exr", *words, code=7)
         self.same("a.exr", "b.exr")
+        self.assertRegex(said, r"spp, error \d.*, 1 workers")
 
     def test_frames_go_on(self):
-        words = ["-o", "f-##.exr", "--frames", "0-2", "--spp", "8", "-q"]
-        self.farm(*words)
-        self.pt("render", "scene.json", "-o", "g-##.exr", "--frames", "0-2", "--spp", "8")
-        for frame in range(3):
-            self.same(f"f-0{frame}.exr", f"g-0{frame}.exr")
-        times = [os.stat(f"f-0{frame}.exr").st_mtime_ns for frame in range(3)]
+        words = ["--frames", "0-1", "--spp", "8"]
+        self.farm("-o", "f-##.exr", *words)
+        self.pt("render", "scene.json", "-o", "g-##.exr", *words)
+        time = os.stat("f-00.exr").st_mtime_ns
         os.remove("f-01.exr")
-        self.farm(*words, "--skip-existing")
-        self.same("f-01.exr", "g-01.exr")
-        self.assertEqual([os.stat(f"f-0{frame}.exr").st_mtime_ns for frame in (0, 2)], [times[0], times[2]])
+        self.farm("-o", "f-##.exr", *words, "--skip-existing")
+        for frame in "00", "01":
+            self.same(f"f-{frame}.exr", f"g-{frame}.exr")
+        self.assertEqual(os.stat("f-00.exr").st_mtime_ns, time)
 
     def test_interrupted_and_going_on(self):
         words = ["--checkpoint", "k.ptfilm", "--local-workers", "2", "--part-seconds", "0.1"]
-        program = subprocess.Popen([sys.executable, "-m", "pt.farm._command", "render", "scene.json", "-o", "a.exr",
-                                    "--spp", str(ENDLESS), *words],
-                                   stderr=subprocess.PIPE, text=True, start_new_session=True)
+        with open("scene.json") as file:
+            program = subprocess.Popen([sys.executable, "-m", "pt.farm._command", "render", "-", "-o", "a.exr", "--spp",
+                                        str(ENDLESS), *words],
+                                       stdin=file, stderr=subprocess.PIPE, text=True, start_new_session=True)
         text = ""
         while not re.search(r"[1-9]\d* parts", text):
             letter = program.stderr.read(1)
@@ -182,7 +163,3 @@ class Command(unittest.TestCase):
             _command.render, _command.cluster = farm.render, cluster
         self.assertEqual(seen, [(farm.Options(2.0, 3.0, checkpoint="k", checkpoint_every=7.0, wait_for_workers=4.0,
                                               mixed=True), 9, 0.02)])
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,5 +1,4 @@
-"""The commands of lib/python/FARM.md must give the picture of a single process. Arguments: the program pt, FARM.md,
-and a stand-in for Open Image Denoise."""
+"""The commands of lib/python/FARM.md must give the picture of a single process."""
 
 import importlib.util
 import os
@@ -10,12 +9,13 @@ import sys
 import tempfile
 import unittest
 
-PT, MANUAL, FILTER = (os.path.abspath(sys.argv.pop(1)) for _ in range(3))
-SCENE = pathlib.Path(__file__).resolve().parents[2] / "cli/scenes/coursework-diffuse.json"
+PT = os.environ["PT_PROGRAM"]
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SCENE = ROOT / "cli/scenes/coursework-diffuse.json"
 
 
 def commands(start):
-    lines = pathlib.Path(MANUAL).read_text().replace("\\\n", " ").splitlines()
+    lines = (ROOT / "lib/python/FARM.md").read_text().replace("\\\n", " ").splitlines()
     return [line.replace("scene.json", f"{SCENE} --size 16x8") for line in lines if line.startswith(start)]
 
 
@@ -53,15 +53,10 @@ class Files(unittest.TestCase):
 
     @unittest.skipUnless(importlib.util.find_spec("distributed"), "Dask's distributed is not installed")
     def test_denoised(self):
-        os.symlink(FILTER, os.path.join(self.folder, "libOpenImageDenoise.so.2"))
+        os.symlink(os.environ["OPEN_IMAGE_DENOISE"], os.path.join(self.folder, "libOpenImageDenoise.so.2"))
         lines = [*commands("pt-farm render scene.json --spp 32"), command("pt render scene.json --spp 1 "),
                  command("pt denoise").replace("picture.png", "parts.exr"),
                  f"pt render {SCENE} --size 16x8 --spp 64 --denoise -o one.exr", "pt compare parts.exr one.exr --max-mse 0"]
         self.assertEqual(len(lines), 6)
         for line in lines:
-            self.run_line(line.replace("pt-farm", f"{sys.executable} -m pt.farm._command"), PT_PROGRAM=PT,
-                          LD_LIBRARY_PATH=self.folder)
-
-
-if __name__ == "__main__":
-    unittest.main()
+            self.run_line(line.replace("pt-farm", f"{sys.executable} -m pt.farm._command"), LD_LIBRARY_PATH=self.folder)
