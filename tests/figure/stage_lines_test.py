@@ -26,30 +26,22 @@ def shares_of(staged, context):
         2, sum(map(len, staged.scene.sphere_arrays)), staged.drawn.radii, staged.options.outlines))
 
 
-def staged_of(projection, size, **options):
-    return Staged.of(Particles(CENTERS, cell=CELL), Options(radius=RADII, size=size, projection=projection, **options))
-
-
-def first_hits(origins, ways, capsules=((), (), 0.0)):
-    """Returns the index of the ball or capsule that each ray hits first, or -1. Capsules are numbered after the
-    balls."""
-    begins, ends, radius = capsules
-    distances = np.full((*ways.shape[:-1], len(CENTERS) + len(begins)), np.inf)
-    for k, (center, size) in enumerate(zip(CENTERS, RADII)):
-        distances[..., k] = to_ball(origins - center, ways, size)
-    for k, (begin, end) in enumerate(zip(begins, ends), len(CENTERS)):
+def are_hit(origins, ways, begins, ends, radius):
+    """Returns whether rays hit balls or capsules."""
+    distances = [to_ball(origins - center, ways, size) for center, size in zip(CENTERS, RADII)]
+    for begin, end in zip(begins, ends):
         axis = (end - begin) / np.linalg.norm(end - begin)
         start, way = (each - (each @ axis)[..., None] * axis for each in (origins - begin, ways))  # parts perpendicular to the axis
         scale = np.linalg.norm(way, axis=-1)
         side = to_ball(start, way / scale[..., None], radius) / scale
         along = (origins - begin) @ axis + np.where(np.isfinite(side), side, 0) * (ways @ axis)
         side[(along < 0) | (along > np.linalg.norm(end - begin))] = np.inf
-        distances[..., k] = np.minimum(side, np.minimum(to_ball(origins - begin, ways, radius), to_ball(origins - end, ways, radius)))
-    return np.where(np.isfinite(distances.min(axis=-1)), distances.argmin(axis=-1), -1)
+        distances += [side, to_ball(origins - begin, ways, radius), to_ball(origins - end, ways, radius)]
+    return np.isfinite(distances).any(axis=0)
 
 
-def share(hits, size=SIZE):
-    return hits.reshape(size[1], PER_SIDE, size[0], PER_SIDE).mean(axis=(1, 3))
+def share(hits):
+    return hits.reshape(SIZE[1], PER_SIDE, SIZE[0], PER_SIDE).mean(axis=(1, 3))
 
 
 class Lines(unittest.TestCase):
@@ -60,14 +52,17 @@ class Lines(unittest.TestCase):
     def test_coverage(self):
         """Rounding may change up to two of 16 hits at a border."""
         for projection in ("perspective", "orthographic"):
-            staged = staged_of(projection, SIZE)
-            shapes = shares_of(staged, self.context).shapes
+            staged = Staged.of(Particles(CENTERS, cell=CELL), Options(radius=RADII, size=SIZE, projection=projection, outlines=True))
+            shares = shares_of(staged, self.context)
+            with unittest.mock.patch.object(_overlay, "BAND_ROWS", 1000):
+                whole = shares_of(staged, self.context)
+            np.testing.assert_array_equal((shares.shapes, shares.outlines), (whole.shapes, whole.outlines))
+            shapes = shares.shapes
             edges = staged.scene.sphere_arrays[1]
-            shown = first_hits(*rays(staged.layout.camera, *np.multiply(SIZE, PER_SIDE)), (*cell_edges(CELL), edges.radius[0]))
             self.assertEqual(shapes.max(), 1.0)  # inside balls
-            self.assertLess(np.abs(shapes - share(shown >= 0)).max(), 2.5 / 16)
-            wider = first_hits(*rays(staged.layout.camera, *np.multiply(SIZE, PER_SIDE)), (*cell_edges(CELL), edges.radius[0] * 1.2))
-            self.assertGreater(np.abs(shapes - share(wider >= 0)).max(), 2.5 / 16)
+            apart, apart_of_wider = (np.abs(shapes - share(are_hit(*rays(staged.layout.camera, *np.multiply(SIZE, PER_SIDE)), *cell_edges(CELL),
+                                                                   edges.radius[0] * factor))).max() for factor in (1, 1.2))
+            self.assertTrue(apart < 2.5 / 16 < apart_of_wider)
 
     def test_edges_have_their_width_in_pixels(self):
         """Measures two slanting edges in a plane perpendicular to the view, along 60 rows. Samples a quarter of a pixel apart give the
@@ -91,30 +86,16 @@ class Lines(unittest.TestCase):
         edges = Staged.of(particles, Options(radius=0.1, camera=camera, size=(80, 64), box="lines")).scene.sphere_arrays[1]
         np.testing.assert_allclose(edges.radius, 0.5 * 8 / 64)
 
-    def test_outlines_go_round_the_balls(self):
-        """Balls have outlines only where the background or another ball is behind them."""
+    def test_outlines_go_round_a_ball(self):
+        """The axis of the view goes through the ball, whose silhouette is a circle."""
         for projection in ("perspective", "orthographic"):
-            size = (96, 72)
-            staged = staged_of(projection, size, outlines=True)
-            shares = shares_of(staged, self.context)
-            with unittest.mock.patch.object(_overlay, "BAND_ROWS", 1000):
-                whole = shares_of(staged, self.context)
-            for name in ("shapes", "outlines"):
-                np.testing.assert_array_equal(getattr(shares, name), getattr(whole, name))
-            capsules = *cell_edges(CELL), staged.scene.sphere_arrays[1].radius[0]
-            shown = first_hits(*rays(staged.layout.camera, *np.multiply(size, PER_SIDE)), capsules)
-            balls = np.where(shown < len(CENTERS), shown, -2)  # -2 is an edge of the cell
-            edges, rims = np.zeros(balls.shape, bool), np.zeros(balls.shape, bool)
-            for axis in (0, 1):
-                for step in (1, -1):
-                    other = np.roll(balls, step, axis)
-                    edges |= (balls >= 0) & (balls != other) & (other != -2)
-                    rims |= (balls >= 0) & (other == -1)
-            outline, near = shares.outlines, share(edges, size) > 0
-            reach = 2
-            around = np.zeros_like(near)
-            for down in range(-reach, reach + 1):
-                for across in range(-reach, reach + 1):
-                    around |= np.roll(near, (down, across), (0, 1))
-            self.assertTrue((outline[~around] == 0).all())
-            self.assertGreater((outline[share(rims, size) > 0] > 0).mean(), 0.98)
+            figure = pt.figure(np.zeros((1, 3)), radius=1.0, projection=projection, size=(96, 72), samples=1, outlines=True, context=self.context)
+            camera, outlines = figure.camera, figure._shares.outlines
+            if camera.vertical_extent is None:
+                radius = 36 * np.tan(np.arcsin(1 / np.linalg.norm(camera.position))) / np.tan(0.5 * camera.vertical_fov)
+            else:
+                radius = 72 / camera.vertical_extent
+            rows, columns = np.indices(outlines.shape) + 0.5
+            apart = abs(np.hypot(rows - 36, columns - 48) - radius)
+            self.assertEqual(outlines[apart > 2].max(), 0)
+            self.assertGreater(outlines[apart < 0.3].min(), 0)
