@@ -142,6 +142,7 @@ class Libraries(unittest.TestCase):
 
     def test_version_and_devices(self):
         self.assertRegex(pt.version(), r"^0\.4\.\d+$")
+        self.assertEqual(pt.__version__, pt.version())
         found = pt.devices()
         suitable = [device for device in found if device.suitable]
         self.assertTrue(suitable)

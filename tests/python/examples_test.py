@@ -44,11 +44,6 @@ def programs_of(page):
     return re.findall(r"```python\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL)
 
 
-def figure_commands(text):
-    lines = re.findall(r"^pt[ -]figure ([^#\n]*)", text, re.MULTILINE) + re.findall(r"`pt[ -]figure ([^`]*)`", text)
-    return [words for line in lines if (words := shlex.split(line)) != ["--help"]]
-
-
 class Examples(unittest.TestCase):
     def setUp(self):
         self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
@@ -78,15 +73,13 @@ class Examples(unittest.TestCase):
         self.assertTrue((names["image"].sample_count == 16).all())
 
     def test_figures_of_the_pages(self):
-        found = 0
-        for page in ("README.md", "lib/python/README.md"):
-            for words in figure_commands((ROOT / page).read_text()):
-                with self.subTest(" ".join(words)):
-                    given = parser().parse_args(joined(words))
-                    Options(**{name: value for name, value in vars(given).items() if name in Options.__annotations__
-                               and name != "progress"})
-                    found += 1
-        self.assertGreater(found, 5)
+        text = "".join(page.read_text(encoding="utf-8") for page in (ROOT / "README.md", PACKAGE / "README.md"))
+        commands = re.findall(r"^pt[ -]figure ([^#\n]*)", text, re.MULTILINE) + re.findall(r"`pt[ -]figure ([^`]*)`", text)
+        self.assertGreater(len(commands), 5)
+        for command in {command.strip() for command in commands} - {"--help"}:
+            with self.subTest(command):
+                given = vars(parser().parse_args(joined(shlex.split(command))))
+                Options(**{name: value for name, value in given.items() if name in Options.__annotations__ and name != "progress"})
 
     def test_help_needs_no_optional_module(self):
         optional = {re.match(r"\w+", need)[0] for extra in PYPROJECT["optional-dependencies"].values() for need in extra}

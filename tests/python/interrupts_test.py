@@ -1,6 +1,7 @@
 import signal
 import sys
 import unittest
+from unittest import mock
 
 import numpy as np
 import pt
@@ -54,13 +55,8 @@ class Interrupts(unittest.TestCase):
             self.assertIs(self.context.set_scene(many_spheres(), lambda _: value), pt.Result.OK)
 
     def test_what_progress_raises(self):
-        def fail(_):
-            raise LookupError("where it is")
-
-        def interrupt(_):
-            signal.raise_signal(signal.SIGINT)
-
-        for error, words, progress in (LookupError, "where it is", fail), (KeyboardInterrupt, "", interrupt):
+        fail = mock.Mock(side_effect=LookupError("where it is"))
+        for error, words, progress in (LookupError, "where it is", fail), (KeyboardInterrupt, "", lambda _: signal.raise_signal(signal.SIGINT)):
             self.context.accumulate(4)
             film = self.context.film()
             with self.assertRaisesRegex(error, words):
@@ -69,6 +65,8 @@ class Interrupts(unittest.TestCase):
             with self.assertRaisesRegex(error, words):
                 self.context.accumulate(ENDLESS, progress=progress)
             self.check_usable()
+        with self.assertRaises(LookupError):
+            pt.Context(log=fail)
 
     def test_a_signal_while_samples_are_taken(self):
         """The signal's exception must also be raised without a progress function."""
@@ -78,13 +76,6 @@ class Interrupts(unittest.TestCase):
                 self.context.accumulate(ENDLESS)
             self.check_usable()
 
-    def test_what_a_log_raises(self):
-        def fail(_level, _line):
-            raise LookupError
-
-        with self.assertRaises(LookupError):
-            pt.Context(log=fail)
-
     def test_what_others_cannot_raise_goes_its_way(self):
         told = []
         sys.unraisablehook, hook = lambda raised: told.append(raised.exc_type), sys.unraisablehook
@@ -93,11 +84,6 @@ class Interrupts(unittest.TestCase):
             def __del__(self):
                 raise LookupError
 
-        def drop(_):
-            Failing()
-
-        try:
-            self.assertIs(self.context.accumulate(1, progress=drop), pt.Result.OK)
-        finally:
-            sys.unraisablehook = hook
+        self.assertIs(self.context.accumulate(1, progress=lambda _: Failing() and None), pt.Result.OK)
+        sys.unraisablehook = hook
         self.assertEqual(set(told), {LookupError})

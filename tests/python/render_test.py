@@ -92,10 +92,6 @@ class Render(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, r"center\[3, 1\] = nan: must be finite"):
             pt.Camera.around(row, 0.1)
 
-    def test_version(self):
-        self.assertEqual(pt.__version__, pt.version())
-        self.assertFalse(hasattr(pt, "no_such_name"))
-
 
 class Readback(unittest.TestCase):
     @classmethod

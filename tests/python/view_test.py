@@ -217,8 +217,6 @@ class Views(unittest.TestCase):
                 self.assertEqual(renderer._count, stopped["samples"])
                 page.send({"playing": True})
                 page.frame(lambda state: state["samples"] > stopped["samples"])
-                with Page(view) as other:
-                    self.assertEqual(other.frame(lambda state: state["samples"])["size"], [24, 16])
             while renderer._is_watched:
                 pass
             renderer._thread.join(0.3)
