@@ -69,26 +69,22 @@ std::vector<DrawnSpot> draw_spots(const std::vector<SpotOf> &spots, std::uint32_
     return probe.run<DrawnSpot>({}, count, push, count);
 }
 
-glm::dvec3 middle_of(const std::vector<DrawnSpot> &drawn, std::uint32_t surface) {
-    glm::dvec3 sum(0);
-    for (const DrawnSpot &sample : drawn)
-        if (sample.surface == surface && sample.distance > 0.0F)
-            sum += glm::dvec3(sample.direction);
-    return glm::normalize(sum);
-}
-
 // Compares the solid angle of a cone within the surface with the mean of 1 / (density * density_error) over the cone.
 // Returns the difference in standard errors.
 double solid_angle_deviate(const std::vector<DrawnSpot> &drawn, std::uint32_t surface, double radius,
                            double density_error) {
-    const glm::dvec3 middle = middle_of(drawn, surface);
+    const auto counts = [&](const DrawnSpot &sample) { return sample.surface == surface && sample.distance > 0.0F; };
+    glm::dvec3 sum(0);
+    for (const DrawnSpot &sample : drawn)
+        if (counts(sample))
+            sum += glm::dvec3(sample.direction);
+    const glm::dvec3 middle = glm::normalize(sum);
     std::vector<double> inverses;
     std::size_t within = 0;
     for (const DrawnSpot &sample : drawn) {
-        const glm::dvec3 chord = glm::dvec3(sample.direction) - middle;
-        const bool counts = sample.surface == surface && sample.distance > 0.0F && glm::length(chord) < radius;
-        inverses.push_back(counts ? 1.0 / (double{sample.density} * density_error) : 0.0);
-        within += counts ? 1 : 0;
+        const bool is_in_cone = counts(sample) && glm::length(glm::dvec3(sample.direction) - middle) < radius;
+        inverses.push_back(is_in_cone ? 1.0 / (double{sample.density} * density_error) : 0.0);
+        within += is_in_cone ? 1 : 0;
     }
     EXPECT_GT(within, drawn.size() / 50) << "too few to tell anything";
     const statistics::Moments moments = statistics::moments(inverses);
@@ -96,42 +92,32 @@ double solid_angle_deviate(const std::vector<DrawnSpot> &drawn, std::uint32_t su
     return (moments.mean - solid_angle) / std::sqrt(moments.variance / static_cast<double>(drawn.size()));
 }
 
-struct SpotCase {
-    const char *name;
-    std::vector<SpotOf> spots;
-    std::uint32_t surface;
-    double radius; // chord of a cone that lies within the surface and has no very rare directions
-};
-
-class SpotDirections : public testing::TestWithParam<SpotCase> {};
-
-TEST_P(SpotDirections, FollowTheStatedDensity) {
+TEST(Spots, DirectionsFollowTheStatedDensity) {
     constexpr std::uint32_t draws = 1U << 20;
-    const SpotCase &of = GetParam();
-    const std::vector<DrawnSpot> drawn = draw_spots(of.spots, draws);
-    const double bound = statistics::normal_quantile(0.5e-6 / 8); // one false alarm in a million, two-sided
-    EXPECT_LT(std::abs(solid_angle_deviate(drawn, of.surface, of.radius, 1.0)), bound);
-    EXPECT_GT(std::abs(solid_angle_deviate(drawn, of.surface, of.radius, 1.03)), bound) << "3% too dense must show";
-    EXPECT_GT(std::abs(solid_angle_deviate(drawn, of.surface, of.radius, 0.97)), bound) << "3% too thin must show";
+    const struct {
+        const char *name;
+        std::vector<SpotOf> spots;
+        std::uint32_t surface;
+        double radius; // chord of a cone that lies within the surface and has no very rare directions
+    } cases[] = {{"two glows", {{first_lamp, floor_plane, glow}, {second_lamp, floor_plane, glow}}, floor_plane, 0.1},
+                 {"an image in a plane", {{first_lamp, floor_plane, 200}}, floor_plane, 0.05},
+                 {"two images in a sphere", {{first_lamp, sphere, 50}, {second_lamp, sphere, 50}}, sphere, 0.015},
+                 {"one of many",
+                  {{first_lamp, floor_plane, glow},
+                   {second_lamp, sphere, 100},
+                   {first_lamp, sphere, 100},
+                   {second_lamp, floor_plane, 300}},
+                  floor_plane,
+                  0.05},
+                 {"sharp", {{second_lamp, sphere, 1e5F}}, sphere, 0.002}};
+    const double bound = statistics::normal_quantile(0.5e-6 / std::size(cases)); // one false alarm in a million
+    for (const auto &[name, spots, surface, radius] : cases) {
+        SCOPED_TRACE(name);
+        const std::vector<DrawnSpot> drawn = draw_spots(spots, draws);
+        EXPECT_LT(std::abs(solid_angle_deviate(drawn, surface, radius, 1.0)), bound);
+        EXPECT_GT(std::abs(solid_angle_deviate(drawn, surface, radius, 1.03)), bound) << "3% too dense must show";
+        EXPECT_GT(std::abs(solid_angle_deviate(drawn, surface, radius, 0.97)), bound) << "3% too thin must show";
+    }
 }
-
-INSTANTIATE_TEST_SUITE_P(
-    Of, SpotDirections,
-    testing::Values(
-        SpotCase{"Glow", {{first_lamp, floor_plane, glow}}, floor_plane, 0.1},
-        SpotCase{"TwoGlows", {{first_lamp, floor_plane, glow}, {second_lamp, floor_plane, glow}}, floor_plane, 0.1},
-        SpotCase{"ImageInPlane", {{first_lamp, floor_plane, 200}}, floor_plane, 0.05},
-        SpotCase{"ImageInSphere", {{second_lamp, sphere, 200}}, sphere, 0.008},
-        SpotCase{"TwoImagesInSphere", {{first_lamp, sphere, 50}, {second_lamp, sphere, 50}}, sphere, 0.015},
-        SpotCase{"GlowAndImage", {{first_lamp, floor_plane, glow}, {first_lamp, floor_plane, 100}}, floor_plane, 0.05},
-        SpotCase{"OneOfMany",
-                 {{first_lamp, floor_plane, glow},
-                  {second_lamp, sphere, 100},
-                  {first_lamp, sphere, 100},
-                  {second_lamp, floor_plane, 300}},
-                 floor_plane,
-                 0.05},
-        SpotCase{"Sharp", {{second_lamp, sphere, 1e5F}}, sphere, 0.002}),
-    [](const auto &param) { return param.param.name; });
 
 } // namespace
