@@ -1,6 +1,7 @@
 import json
 import os
 import random
+import struct
 
 from command_line import COURSEWORK, PT, CommandLineTest, read_exr_attributes, read_exr_blocks, read_png
 
@@ -50,12 +51,13 @@ class Merge(CommandLineTest):
         self.write("cut.ptfilm", self.contents(self.parts[3])[:-20])
         self.expect(0, *self.small, "--film", "stranger.ptfilm", "--first-sample", "900", "--spp", "9", "--seed", "5")
         self.write("picture.json", "{}")
-        self.merge(2, *self.parts[:3], self.parts[1], "cut.ptfilm", "stranger.ptfilm", "picture.json", "-o", "a.png", "--film", "a.ptfilm", "--stats", "a.json")
+        self.write("vast.ptfilm", b"\x28\xb5\x2f\xfd\xc0\0" + struct.pack("<Q", 2**40) + bytes(20))  # RFC 8878, 3.1.1.1
+        self.merge(2, *self.parts[:3], self.parts[1], "cut.ptfilm", "stranger.ptfilm", "picture.json", "vast.ptfilm", "-o", "a.png", "--film", "a.ptfilm", "--stats", "a.json")
         lines = self.errors.splitlines()
-        self.assertEqual(len(lines), 5, self.errors)
+        self.assertEqual(len(lines), 6, self.errors)
         starts = (f"pt: {self.parts[1]}: samples = [9, 18)", "pt: cut.ptfilm: damaged or cut short",
                   "pt: stranger.ptfilm: seed = 5: must be 0", "pt: picture.json: these bytes are not a film",
-                  "pt: nothing was written")
+                  "pt: vast.ptfilm: damaged or cut short: the header of its zstd frame", "pt: nothing was written")
         for line, start in zip(lines, starts):
             self.assertTrue(line.startswith(start), line)
         self.assertFalse({"a.png", "a.ptfilm", "a.json"} & set(self.files()))
