@@ -157,6 +157,8 @@ class TargetError(CommandLineTest):
         self.assertEqual((self.errors, self.files()), ("", ["a.png", "s.json"]))
         self.assertEqual((stats["spp"], stats["target_reached"]), (32, False))
         self.assertIn("; target not reached: 3.12% is above 2.5% after 32 samples, raise --spp\n", self.output)
+        last = self.render("--error", "1e-9", "--first-sample", "4294967280", code=7)
+        self.assertEqual(last["spp_requested"], 16)  # indices of samples have 32 bits
         self.render("--error", "2.5%", "--spp", "15", code=7)
         self.assertIn("target not reached: unknown error for 2.5% after 15 samples, raise --spp\n", self.output)
 
