@@ -125,7 +125,6 @@ class Resume(CommandLineTest):
 
     def test_what_differs_is_said(self):
         for options, error in ((("--seed", "7"), "c.ptfilm: seed = 0: must be 7"),
-                               (("--max-path-length", "3"), "c.ptfilm: max_path_length = 2: must be 3"),
                                (("--sampler", "random"), "c.ptfilm: sampler = 4: must be 1"),
                                (("--estimator", "light"), "c.ptfilm: estimator = 5: must be 4")):
             self.refuse(error, *options)

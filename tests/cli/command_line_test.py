@@ -184,6 +184,8 @@ class RealDevice(CommandLineTest):
                              ' "spheres": [\n{"center": [0, 0, 0], "radius": -1, "material": "gold"}]}')
         self.expect(3, "render", "s.json", "-o", "a.png", error="pt: s.json:3: spheres[0].radius = -1: must be > 0\n")
         self.assertIn("pt: s.json:1: materials.gold.glossiness = -1: must be >= 0\n", self.errors)
+        self.expect(2, "render", "s.json", "-o", "a.png", "--set", "spheres[0].radius=-2",
+                    error="glossiness = -1: must be >= 0\npt: --set spheres[0].radius=-2: spheres[0].radius = -2: must be > 0\n")
         self.write("s.json", '{"camera": {"position": [1, 1, 1], "look_at": [1, 1, 1]}}')
         self.expect(3, "render", "s.json", "-o", "a.png", error="s.json:1: camera.look_at")
         self.assertEqual(self.files(), ["s.json"])

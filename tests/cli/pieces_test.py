@@ -102,9 +102,8 @@ class RealDevice(CommandLineTest):
 
     def test_neither_pieces_nor_devices_change_a_bit(self):
         whole = self.pixels()
-        for option, value in (("--piece-rows", "10"), ("--piece-rows", "33"), ("--device", "all")):
-            with self.subTest(option=option, value=value):
-                self.assertEqual(self.pixels(option, value), whole)
+        for option in ("--piece-rows", "10"), ("--device", "all"):
+            self.assertEqual(self.pixels(*option), whole)
         self.assertNotEqual(self.pixels(samples=16), whole)
 
     def test_errors_of_pieces_are_joined(self):
