@@ -1,6 +1,5 @@
 #include "lib/film/error_estimate.h"
-
-#include "tests/support/image_tiles.h"
+#include "lib/film/tile_grid.h"
 
 #include <gtest/gtest.h>
 #include <pt/stats.h>
@@ -12,20 +11,29 @@
 
 namespace {
 
-constexpr std::uint64_t sample_count = std::uint64_t{1} << 40;
+constexpr double sample_count = 0x1p40;
 
-pt::ImageValues pixels_of(const std::vector<float> &radiance, const std::vector<float> &standard_error) {
-    pt::ImageValues pixels{radiance, standard_error, {}};
-    for (std::size_t i = 0; i < radiance.size(); ++i)
-        pixels.lesser.push_back(std::isfinite(standard_error[i]) ? radiance[i] - standard_error[i] : 0.0F);
-    return pixels;
+void add_tiles(pt::ErrorEstimator &estimator, std::uint32_t width, const std::vector<float> &radiance,
+               const std::vector<float> &errors, double samples) {
+    const pt::TileGrid grid{width, static_cast<std::uint32_t>(radiance.size() / 3 / width)};
+    for (std::size_t i = 0; i < grid.count(); ++i) {
+        const pt::Rectangle pixels = grid.pixels(i);
+        pt::TileValues tile{.width = pixels.width, .height = pixels.height, .sample_count = samples};
+        for (std::size_t y = 0; y < tile.height; ++y)
+            for (std::size_t value = 0; value < 3 * tile.width; ++value) {
+                const std::size_t from = 3 * ((pixels.y + y) * width + pixels.x) + value;
+                tile.pixels[y * pt::tile_size + value / 3][value % 3] = {
+                    radiance[from], errors[from], std::isfinite(errors[from]) ? radiance[from] - errors[from] : 0.0F};
+            }
+        estimator.add(tile_errors(tile));
+    }
 }
 
 pt::ErrorEstimate estimate(std::uint32_t width, const std::vector<float> &radiance,
                            const std::vector<float> &standard_error, std::uint32_t sampler = PT_SAMPLER_RANDOM,
                            bool may_miss_lamps = false) {
     pt::ErrorEstimator estimator({sampler, may_miss_lamps});
-    add_tiles(estimator, width, pixels_of(radiance, standard_error), sample_count);
+    add_tiles(estimator, width, radiance, standard_error, sample_count);
     return estimator.result();
 }
 
@@ -131,7 +139,7 @@ TEST(ErrorEstimate, OfLampsFoundByChanceAsksNotWhatWasMetAgain) {
     }
     for (const bool by_chance : {false, true}) {
         pt::ErrorEstimator estimator({PT_SAMPLER_RANDOM, false, by_chance});
-        add_tiles(estimator, 32, pixels_of(radiance, errors), sample_count);
+        add_tiles(estimator, 32, radiance, errors, sample_count);
         const double error =
             estimator.result().relative_rmse.estimate * std::sqrt(3.0 * 32.0 * 32.0) / raised(1.0, 1.0);
         EXPECT_NEAR(error, by_chance ? 100.0 / 0.1 : 1.0, 1e-3);
@@ -148,7 +156,7 @@ TEST(ErrorEstimate, CountsLightThatMayBeUnseen) {
             errors[3 * (32 * row + 20) + channel] = 1.0F;
         }
     pt::ErrorEstimator estimator({PT_SAMPLER_RANDOM, false});
-    add_tiles(estimator, 32, pixels_of(radiance, errors), 16);
+    add_tiles(estimator, 32, radiance, errors, 16);
     const pt::ErrorEstimate found = estimator.result();
     const double seen = 1.0 / (159.0 * 159.0 + 0.01);
     constexpr double b = 10.0 / 0.1;

@@ -3,6 +3,7 @@
 #include "lib/base/digest.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/expected_error.h"
+#include "tests/support/film_maker.h"
 
 #include <gtest/gtest.h>
 
@@ -26,18 +27,7 @@ Bytes golden_film() {
     return {bytes.begin(), bytes.end()};
 }
 
-const pt::FilmHeader golden_header{{{"scene", "00112233445566778899aabbccddeeff"},
-                                    {"camera", "ffeeddccbbaa99887766554433221100"},
-                                    {"width", "7"},
-                                    {"height", "5"},
-                                    {"max_path_length", "6"},
-                                    {"seed", "18446744073709551615"},
-                                    {"estimator", "5"},
-                                    {"sampler", "4"},
-                                    {"unit_exponent", "-3"},
-                                    {"estimator_version", "1"},
-                                    {"kernel", "0123456789abcdef0123456789abcdef"},
-                                    {"device", "a device, its driver 1.2"}},
+const pt::FilmHeader golden_header{film_maker::identity(7, 5),
                                    {{{0, 1, 3, 2},
                                      [] {
                                          pt::SampleSet samples({0, 5});

@@ -1,10 +1,13 @@
 #include "lib/base/error.h"
 #include "lib/render/render_device.h"
+#include "lib/scene/checked_scene.h"
+#include "lib/view/camera_rules.h"
+#include "lib/view/view.h"
 #include "lib/vulkan/buffer.h"
 #include "lib/vulkan/compute_pipeline.h"
 #include "lib/vulkan/device_choice.h"
 #include "recurrence.spv.h"
-#include "tests/kernel/coursework_view.h"
+#include "tests/support/checked_scene_of.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/support/expected_error.h"
 #include "tests/vulkan/caller_vulkan.h"
@@ -16,6 +19,7 @@
 #include <array>
 #include <chrono>
 #include <cstring>
+#include <memory>
 #include <optional>
 
 namespace {
@@ -89,7 +93,10 @@ TEST_F(BorrowedDeviceTest, EverySubmissionHoldsTheQueue) {
     const QueueSpy spy(device.device().handle());
     const pt::RenderSettings settings = pt::validated_render(render_of(20, 10, 2));
     device.set_film(device.make_film(settings));
-    device.prepare(coursework_view(settings), settings);
+    const CourseworkScene coursework;
+    const pt::PreparedScene scene(pt::owned_scene(checked_scene_of(coursework.scene())));
+    const pt::Camera camera = pt::validated_camera(CourseworkScene::camera());
+    device.prepare(std::make_shared<const pt::View>(pt::view_of(scene, camera, settings)), settings);
     constexpr std::array<std::uint32_t, 6> tiles = {0, 1, 2, 3, 4, 5};
     device.start({tiles, {}, {0, 4}, true});
     device.finish();
