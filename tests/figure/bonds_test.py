@@ -157,9 +157,8 @@ class Looks(unittest.TestCase):
         self.assertEqual(len(prepare(BENZENE, Options(bonds=True, where="element == H")).rods[0].atoms), 0)
 
     def test_series_have_one_radius(self):
-        def read():
-            return (Particles(BENZENE.positions * factor, elements=BENZENE.elements) for factor in (1, 1.2))
-        first, second = frames(read, Options(model="ball-and-stick", size=(40, 30)))
+        both = [Particles(BENZENE.positions * factor, elements=BENZENE.elements) for factor in (1, 1.2)]
+        first, second = frames(lambda: iter(both), Options(model="ball-and-stick", size=(40, 30)))
         self.assertEqual(first.drawn.rods[0].radius, second.drawn.rods[0].radius)
         np.testing.assert_array_equal(first.drawn.radii, second.drawn.radii)
 
@@ -192,11 +191,8 @@ class Looks(unittest.TestCase):
         drawn = prepare(particles, Options(vectors="v", vector_scale=2, where="vx > 0"))
         np.testing.assert_allclose(drawn.ends(drawn.rods[0])[-1], [8, 0, 16])
         self.assertAlmostEqual(float(drawn.radii[0]), np.sqrt(200) / 8)
-
-        def read():
-            return (Particles(particles.positions, {"v[0]": vectors[:, 0] * k, "v[1]": vectors[:, 1] * k,
-                                                    "v[2]": vectors[:, 2] * k}) for k in (0, 1, 2))
-        staged = list(frames(read, Options(vectors="v", radius=0.5, size=(40, 30))))
+        grown = [Particles(particles.positions, dict(zip(("v[0]", "v[1]", "v[2]"), k * vectors.T))) for k in (0, 1, 2)]
+        staged = list(frames(lambda: iter(grown), Options(vectors="v", radius=0.5, size=(40, 30))))
         lengths = [np.linalg.norm(each.drawn.rods[0].ways, axis=1).reshape(21, -1).sum(axis=0) for each in staged]
         np.testing.assert_allclose(lengths[1], (0.6 * long, long))
         np.testing.assert_allclose(lengths[2], 2 * lengths[1])

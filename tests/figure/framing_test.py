@@ -1,3 +1,4 @@
+import itertools
 import math
 import re
 import unittest
@@ -100,21 +101,16 @@ class Cells(unittest.TestCase):
 
 
 class Blank(unittest.TestCase):
-    def staged(self, radii, **options):
-        return Staged.of(Particles(CUBE[:100] * 50), Options(radius=radii, size=(400, 300), frame_all=True, **options))
+    def staged(self, radius):
+        return Staged.of(Particles(CUBE[:100] * 50), Options(radius=radius, size=(400, 300), frame_all=True))
 
     def test_balls_narrower_than_a_pixel_are_told(self):
-        for projection in ("perspective", "orthographic"):
-            for factor in (1.0, 2.0**100):
-                radii = np.full(100, 0.01)
-                radii[:7] = 5
-                staged = Staged.of(Particles(CUBE[:100] * 50 * factor),
-                                   Options(radius=radii * factor, size=(400, 300), projection=projection))
-                layout = staged.layout
-                pixels = pixels_per_length(layout.camera, 300, layout.distance) * staged.drawn.scale
-                note = re.fullmatch(r"narrower than a pixel: 93 of 100 balls. --radius (\S+) \(radius=\1\) "
-                                    r"makes balls 8 pixels wide", staged.notes[0])
-                self.assertLess(abs(2 * float(note[1]) * pixels / 8 - 1), 0.05)  # The note rounds the number.
+        radii = np.where(np.arange(100) < 7, 5, 0.01)
+        for projection, factor in itertools.product(("perspective", "orthographic"), (1.0, 2.0**100)):
+            staged = Staged.of(Particles(CUBE[:100] * 50 * factor), Options(radius=radii * factor, size=(400, 300), projection=projection))
+            pixels = pixels_per_length(staged.layout.camera, 300, staged.layout.distance) * staged.drawn.scale
+            note = re.fullmatch(r"narrower than a pixel: 93 of 100 balls. --radius (\S+) \(radius=\1\) makes balls 8 pixels wide", staged.notes[0])
+            self.assertLess(abs(2 * float(note[1]) * pixels / 8 - 1), 0.05)  # The note rounds the number.
         pixels = pixels_per_length(self.staged(0.01).layout.camera, 300, self.staged(0.01).layout.distance)
         for width, told in ((0.95, 1), (1.05, 0)):
             self.assertEqual([note[23:33] for note in self.staged(0.5 * width / pixels).notes], ["100 of 100"] * told)

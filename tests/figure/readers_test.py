@@ -12,6 +12,7 @@ import unittest
 
 import numpy as np
 from pt.figures import frames, load
+from pt.figures._cell import Cell
 from pt.figures._errors import DataError
 from pt.figures.readers import _rows
 
@@ -83,14 +84,13 @@ class Cells(InAFolder):
         turns = np.random.default_rng(2).integers(-3, 4, (50, 3))
         turns[:, 1] = 0  # The cell is not periodic along this edge, so particles remain outside.
         outside = inside + turns @ edges
-        data = {"positions": outside, "v": np.arange(50)}
-        found = load(data)
-        found.cell = self.read("a.dump", f"{HEAD}xy xz yz pp ff pp\n1 5 1\n-4 2 1\n10 18 -2\n{ATOMS}").cell
+        found = load({"positions": outside.copy(), "v": np.arange(50)})
+        found.cell = Cell.of(edges, (1, -2, 10), (True, False, True))
         wrapped = found.wrapped().select(np.arange(50) % 2 == 1)
         np.testing.assert_allclose(wrapped.positions, inside[1::2], 0, 30 * 2**-50)
         np.testing.assert_array_equal(wrapped.column("y"), wrapped.positions[:, 1])
         np.testing.assert_array_equal(wrapped.column("v"), np.arange(1, 50, 2))
-        np.testing.assert_array_equal(outside, data["positions"])
+        np.testing.assert_array_equal(found.positions, outside)
 
 
 def many_frames(count):
@@ -221,9 +221,8 @@ class Users(unittest.TestCase):
             self.assertEqual(load({**places, name: [1.0, 2.0]}).radii.tolist(), expected)
         self.assertEqual(load({**places, "Radius": [3, 4], "radius": [1, 2]}).radii.tolist(), [1, 2])
         found = load({**places, "R (m)": [1.0, 2.0]})
-        self.assertIsNone(found.radii)
-        self.assertEqual(found.notes, ['column R (m) is not taken for the radius: --columns "radius=R (m)" '
-                                       '(columns="radius=R (m)") takes it'])
+        self.assertEqual((found.radii, found.notes), (None, ['column R (m) is not taken for the radius: --columns "radius=R (m)" '
+                                                             '(columns="radius=R (m)") takes it']))
         self.assertEqual(load({**places, "R (m)": [1.0, 2.0]}, columns="radius=R (m)").radii.tolist(), [1, 2])
         self.assertEqual(load({**places, "r": [1, 2], "g": [1, 2], "b": [1, 2]}).notes, ["colors r, g, b are taken to go from 0 to 255: the largest is 2"])
         with self.assertRaisesRegex(DataError, "column name has words, 'a': a radius must be a number"):

@@ -25,16 +25,12 @@ def particles_of(*parts, elements=6):
     return Particles(positions, columns, elements=np.full(len(positions), elements, np.uint8))
 
 
-def curve_of(rods, positions):
-    begins = positions[rods.atoms] + rods.starts
-    return begins, begins + rods.ways
-
-
 class Tubes(unittest.TestCase):
     def test_the_tube_goes_through_the_atoms_in_one_piece(self):
         particles = particles_of(chain(HELIX))
         rods = tubes_of(particles, trace_of(particles), None)
-        begins, ends = curve_of(rods, HELIX)
+        begins = HELIX[rods.atoms] + rods.starts
+        ends = begins + rods.ways
         self.assertEqual(len(begins), 11 * PIECES)
         np.testing.assert_allclose(begins[1:], ends[:-1], atol=1e-12)
         np.testing.assert_allclose(np.vstack([begins[::PIECES], ends[-1:]]), HELIX, atol=1e-12)
@@ -43,12 +39,7 @@ class Tubes(unittest.TestCase):
         near = np.linalg.norm(0.5 * (begins + ends) - HELIX[rods.atoms], axis=1)
         far = np.linalg.norm(0.5 * (begins + ends)[:, None] - HELIX, axis=2).min(axis=1)
         np.testing.assert_allclose(near, far, atol=1e-9)
-
-    def test_the_curve_is_that_of_catmull_and_rom(self):
-        """Halfway between two atoms, the curve is (9 (b + c) - (a + d)) / 16."""
-        particles = particles_of(chain(HELIX))
-        begins, _ = curve_of(tubes_of(particles, trace_of(particles), None), HELIX)
-        a, b, c, d = HELIX[3:7]
+        a, b, c, d = HELIX[3:7]  # Halfway between two atoms, Catmull and Rom's curve is (9 (b + c) - (a + d)) / 16.
         np.testing.assert_allclose(begins[4 * PIECES + PIECES // 2], (9 * (b + c) - (a + d)) / 16, atol=1e-12)
 
     def test_chains_gaps_and_bases_interrupt_it(self):

@@ -8,6 +8,7 @@ import unittest
 
 ROOT, BUILD = pathlib.Path(__file__).resolve().parents[2], pathlib.Path(os.environ["PT_BUILD"])
 LICENSES = ROOT / "cmake/licenses"
+ROWS = [line.split("|") for line in (LICENSES / "parts.txt").read_text().splitlines() if not line.startswith("#")]
 # Libraries and headers of the system and the compiler. Programs that use them need no notices.
 SYSTEM_LIBRARIES = {"libvulkan", "dl", "rt"}
 SYSTEM_HEADERS = set("""cpuid dlfcn emmintrin fcntl io mach-o/dyld math psapi pthread signal stdatomic stddef stdint stdio
@@ -19,12 +20,7 @@ BINARIES = {"lib/libpt.so.": "runtime", "bin/pt:": "program", "lib/pt/libpt-glsl
 
 def parts():
     """Maps (component, header or library or file) to the name of the part."""
-    found = {}
-    for line in (LICENSES / "parts.txt").read_text().splitlines():
-        if not line.startswith("#"):
-            name, way, components, found_as, *_ = line.split("|")
-            found |= {(component, each): name for component in components.split() for each in found_as.split()}
-    return found
+    return {(component, each): name for name, _, components, found_as, *_ in ROWS for component in components.split() for each in found_as.split()}
 
 
 def foreign_headers(text):
@@ -76,6 +72,5 @@ class Licenses(unittest.TestCase):
         self.assertEqual(linked(rules), {("program", "libfoo"), ("program", "libbar")})
 
     def test_every_license_has_its_text(self):
-        rows = [line.split("|") for line in (LICENSES / "parts.txt").read_text().splitlines() if not line.startswith("#")]
-        named = {license for row in rows for license in row[4].split(" and ")} | {"Expat"}
+        named = {license for row in ROWS for license in row[4].split(" and ")} | {"Expat"}
         self.assertEqual(named, {path.stem for path in LICENSES.glob("*.txt")} - {"parts"})

@@ -64,8 +64,6 @@ class Columns(unittest.TestCase):
         self.check(("center", "radius"), POSITIONS[::-1].copy()[::-1], RADII[::-1].copy()[::-1])
         self.check(("center", "radius", "material", "color"), swapped(POSITIONS), swapped(RADII), swapped(INDICES),
                    swapped(COLORS))
-
-    def test_lists_and_other_numbers_are_copied(self):
         self.check(("center", "material"), POSITIONS.tolist(), indices=INDICES.astype(np.int64))
         self.assertEqual(pt.SphereArray(POSITIONS.astype(np.float16), 1, 0).center.dtype, np.float32)
         self.assertEqual(pt.SphereArray(swapped(POSITIONS), 1, 0).center.dtype, np.float32)
@@ -97,7 +95,6 @@ class Columns(unittest.TestCase):
         for error, words, arguments, *colors in (
                 (ValueError, rf"center.shape = \({COUNT},\): must be \(n, 3\)", (RADII, RADII, 0)),
                 (ValueError, rf"radius.shape = \({COUNT - 1},\): must be \({COUNT},\) or \(\)", (POSITIONS, RADII[1:], 0)),
-                (ValueError, "indices of materials", (POSITIONS, RADII, -1)),
                 (ValueError, "indices of materials", (POSITIONS, RADII, 2**32)),
                 (TypeError, "must be of real numbers", (POSITIONS.astype(complex), RADII, 0)),
                 (TypeError, "must be of real numbers", (POSITIONS > 0, RADII, 0)),

@@ -100,8 +100,6 @@ class Browser(unittest.TestCase):
         subprocess.run([PROGRAM, "tonemap", "-q", exr, self.folder / "t.png", "--tonemap", "agx", "--exposure", "-1", "--gamma", "1.8"], check=True)
         expected = np.array(parse_png((self.folder / "t.png").read_bytes())[2], np.uint8).reshape(-1, 3)
         np.testing.assert_array_equal(self.bytes_shown(), expected)
-        _, _, rows = parse_png(self.downloaded("png", "picture.png").read_bytes())
-        np.testing.assert_array_equal(np.array(rows, np.uint8).reshape(-1, 4)[:, :3], expected)
         self.browser.value(click("play"))
         self.browser.until(f"{SAMPLES} > {stopped}")
 
@@ -148,7 +146,6 @@ class Browser(unittest.TestCase):
         verdict = "document.querySelector('#course summary').textContent"
         self.assertIn("step 3: geometric term, reflectance, throughput: wrong: missing 2 pi. ",
                       self.browser.until(f"{verdict}.startsWith('step') && {verdict}"))
-        self.assertTrue(self.browser.value("document.getElementById('trace').hidden"))
         self.tap(120, 70)
         pixel = json.loads(self.browser.until(PIXEL))
         self.assertEqual((pixel["x"], pixel["y"]), (120, 70))
@@ -156,9 +153,8 @@ class Browser(unittest.TestCase):
         self.browser.value(choose("max_path_length", 4))
         self.browser.value(click("trace"))
         self.browser.until(f"{VERTICES}.length === 5 && {CIRCLES}.length")
-        first, second = (self.browser.value(f"{VERTICES}[{number}].textContent") for number in (0, 1))
-        self.assertRegex(first, r"^1position \S+ \S+ \S+throughput 1 1 1$")
-        self.assertRegex(second, r"^2position .*numbers [\d.]+ [\d.]+$")
+        second = self.browser.value(f"{VERTICES}[1].textContent")
+        self.assertRegex(second, r"^2position \S+ \S+ \S+throughput .*numbers [\d.]+ [\d.]+$")
         x, y = self.browser.value(f"(c => [+c.getAttribute('cx'), +c.getAttribute('cy')])({CIRCLES}[0])")
         self.assertEqual((int(x), int(y)), (120, 70))
         self.browser.value(choose("sample", 7))
