@@ -66,7 +66,8 @@ def _positions(name: str, parts: dict[str, Array], table: Array | None, chosen: 
     if scaled:
         if cell is None:
             raise DataError(f"{name}: {', '.join(axes)} are fractions of a cell, but the data have none")
-        positions = positions @ cell.vectors + cell.origin
+        with np.errstate(invalid="ignore", over="ignore"):
+            positions = positions @ cell.vectors + cell.origin
     positions = _flushed(positions)
     for i, axis in enumerate("xyz"):
         if not scaled and i < len(axes):
