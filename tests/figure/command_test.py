@@ -146,9 +146,7 @@ class Command(unittest.TestCase):
                 (2, "a series needs # signs", ("water.xyz", "-o", "a.png", "--turntable", "4")),
                 (2, "not with --frames", ("water.xyz", "-o", "a#.png", "--turntable", "4", "--frames", "0-1")),
                 (2, "standard input cannot be read twice", ("-", "-o", "a#.png", "--frames", "0-1")),
-                (2, "must be WxH", ("water.xyz", "-o", "a.png", "--size", "3")),
                 (2, "spp.: must be N|samples = 0: must be at least 1", ("water.xyz", "-o", "a.png", "--spp", "0")),
-                (3, "view = '-0,0'", ("water.xyz", "-o", "a.png", "--view", "-0,0")),
                 (3, "bad.xyz", ("bad.xyz", "-o", "a.png")),
                 (4, "no device|'nothing'", ("water.xyz", "-o", "a.png", "--device", "nothing")),
                 (6, "none.xyz: does not exist", ("none.xyz", "-o", "a.png"))):

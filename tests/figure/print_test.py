@@ -49,7 +49,7 @@ class Paper(unittest.TestCase):
         self.assertEqual([Options(width=width, dpi=100).pixel_width for width in ("1in", "25.4mm", "72 pt", 1.0)], [100] * 4)
 
     def test_words_have_their_size(self):
-        """Twice the dpi and the font give the same layout with twice the pixels. A larger font needs a wider strip for the color bar."""
+        """A larger font needs a wider strip for the color bar, and more dpi need more pixels for it."""
         def strip(**options):
             figure = self.figure(width="6cm", color="v", colorbar=True, **options)
             return figure.picture_size[0] - figure.shape[1]

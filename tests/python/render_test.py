@@ -59,8 +59,6 @@ class Render(unittest.TestCase):
             self.assertAlmostEqual(max(rim.max() for rim in rims(camera, aspect, POSITIONS, radii)), 1.0)
             with self.assertRaisesRegex(ValueError, "parallel"):
                 pt.Camera.around(POSITIONS, radii, direction=(0, 1, 0))
-        with self.assertRaisesRegex(ValueError, "no spheres"):
-            pt.render(np.zeros((0, 3)), 1.0)
 
     def test_projections_have_names(self):
         def camera(**fields):
@@ -86,7 +84,7 @@ class Render(unittest.TestCase):
                 (r"radii\[2\] = inf: must be > 0 and finite", (POSITIONS, radii), {}),
                 ("radii = -1: must be > 0 and finite", (POSITIONS, -1), {}),
                 ("error = nan: must be > 0 and finite", (POSITIONS, 0.1), {"error": float("nan"), "samples": 1}),
-                ("device = '': must name a device", (POSITIONS, 0.1), {"device": ""})):
+                ("no spheres", (np.zeros((0, 3)), 1.0), {}), ("device = '': must name a device", (POSITIONS, 0.1), {"device": ""})):
             with self.subTest(words=words), self.assertRaisesRegex(ValueError, words):
                 pt.render(*arguments, **options)
         with self.assertRaisesRegex(ValueError, r"center\[3, 1\] = nan: must be finite"):

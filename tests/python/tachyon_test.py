@@ -82,7 +82,6 @@ class Sections(unittest.TestCase):
         np.testing.assert_array_equal(capsules.center, [[1, 2, -3], [0, 0, -1], [0, 2, -1], [7, 8, -9]])
         np.testing.assert_array_equal(capsules.end, [[4, 5, -6.5], [0, 2, -1], [3, 2, -1], [7, 8, -9]])
         np.testing.assert_array_equal(capsules.radius, [0.25, 0.5, 0.5, 2])
-        self.assertEqual(capsules.material.tolist(), [0, 0, 0, 0])
         self.assertEqual(found.camera.target, (1, 2, -5.75))  # z is the middle of -0.5 and -11.
         for ring in ("Center 1 2 3 Normal 0 0 1 Inner 0.1 Outer 0.25", "Center 1 2 3 Normal 0 0 1 Inner 0 Outer 0.5",
                      "Center 1 2 4 Normal 0 0 1 Inner 0 Outer 0.25"):

@@ -32,8 +32,38 @@ class Edits(SceneTest):
     def test_an_error_and_its_mend(self):
         (self.kernels / "outside.glsl").symlink_to(SHADERS / "film.glsl")
         with self.page(shader_dir=self.kernels) as page:
-            self.edit_kernel(page)
-            self.edit_scene(page)
+            files = page.ask({"list": True})["files"]
+            self.assertEqual(files[0], "s.json")
+            self.assertIn("pathtrace.comp", files)
+            self.assertNotIn("outside.glsl", files)
+            page.frame(lambda state: state["samples"] == 16)
+            before = page.radiance()
+            text = page.ask({"open": "path.glsl"})["text"]
+            self.assertEqual(text, (self.kernels / "path.glsl").read_text())
+            sought = "radiance = emitted_by(hit.surface);"
+            line = text[:text.index(sought)].count("\n") + 1
+            page.send({"save": "path.glsl", "text": text.replace(sought, "radiance = emited_by(hit.surface);")})
+            faults = page.frame(lambda state: state["faults"])["faults"]
+            self.assertIn(("path.glsl", line), [(fault["file"], fault["line"]) for fault in faults])
+            np.testing.assert_array_equal(page.radiance(), before)
+            page.send({"save": "path.glsl", "text": text.replace(sought, "radiance = vec3(1.0) + emitted_by(hit.surface);")})
+            page.frame(lambda state: not state["faults"] and state["samples"] == 16)
+            more = page.radiance() - before  # 1 where the ray hits a surface, apart from rounding
+            self.assertTrue(np.isclose(more, 1.0, atol=1e-5).any() and (more > -1e-5).all() and (more < 1.00001).all())
+            page.send({"save": "path.glsl", "text": text})
+            page.frame(lambda state: state["samples"] == 16 and np.array_equal(page.radiance(), before))
+            negative = text_of(SCENE_FILE).replace('"radius": 1', '"radius": -1', 1)
+            for spoilt, line, words in (("\n\n{\"sphere\": []}", 3, "sphere"), ("{\n\"spheres\": [,]}", 2, ""),
+                                        (negative, negative[:negative.index('"radius": -1')].count("\n") + 1, "must be > 0")):
+                page.send({"save": "s.json", "text": spoilt})
+                fault, = page.frame(lambda state: [fault["line"] for fault in state["faults"]] == [line])["faults"]
+                self.assertEqual(fault["file"], "s.json")
+                self.assertIn(words, fault["text"])
+                np.testing.assert_array_equal(page.radiance(), before)
+            lamps = {**SCENE_FILE["materials"], "lamp": {"emission": [8, 6, 4]}}
+            page.send({"save": "s.json", "text": text_of({**SCENE_FILE, "materials": lamps})})
+            page.frame(lambda state: not state["faults"] and state["samples"] == 16)
+            np.testing.assert_array_equal(page.radiance(), 2 * before)  # powers of two are exact
 
     def test_edited_kernels_are_compared_with_the_built_in_one(self):
         text = (self.kernels / "phong.glsl").read_text()
@@ -100,40 +130,3 @@ class Edits(SceneTest):
                 (pt.Light.UNDECIDED, 0.031, "not enough samples yet: a change of 3.1% could be hidden"),
                 (pt.Light.UNDECIDED, np.inf, "not enough samples yet: any change could be hidden")):
             self.assertEqual(verdict_of(pt.Comparison(light, 1, smallest, smallest, 1e-6, "", ())), words)
-
-    def edit_kernel(self, page):
-        files = page.ask({"list": True})["files"]
-        self.assertEqual(files[0], "s.json")
-        self.assertIn("pathtrace.comp", files)
-        self.assertNotIn("outside.glsl", files)
-        page.frame(lambda state: state["samples"] == 16)
-        before = page.radiance()
-        text = page.ask({"open": "path.glsl"})["text"]
-        self.assertEqual(text, (self.kernels / "path.glsl").read_text())
-        sought = "radiance = emitted_by(hit.surface);"
-        line = text[:text.index(sought)].count("\n") + 1
-        page.send({"save": "path.glsl", "text": text.replace(sought, "radiance = emited_by(hit.surface);")})
-        faults = page.frame(lambda state: state["faults"])["faults"]
-        self.assertIn(("path.glsl", line), [(fault["file"], fault["line"]) for fault in faults])
-        np.testing.assert_array_equal(page.radiance(), before)
-        page.send({"save": "path.glsl", "text": text.replace(sought, "radiance = vec3(1.0) + emitted_by(hit.surface);")})
-        page.frame(lambda state: not state["faults"] and state["samples"] == 16)
-        more = page.radiance() - before  # 1 where the ray hits a surface, apart from rounding
-        self.assertTrue(np.isclose(more, 1.0, atol=1e-5).any() and (more > -1e-5).all() and (more < 1.00001).all())
-        page.send({"save": "path.glsl", "text": text})
-        page.frame(lambda state: state["samples"] == 16 and np.array_equal(page.radiance(), before))
-
-    def edit_scene(self, page):
-        before = page.radiance()
-        negative = text_of(SCENE_FILE).replace('"radius": 1', '"radius": -1', 1)
-        for spoilt, line, words in (("\n\n{\"sphere\": []}", 3, "sphere"), ("{\n\"spheres\": [,]}", 2, ""),
-                                    (negative, negative[:negative.index('"radius": -1')].count("\n") + 1, "must be > 0")):
-            page.send({"save": "s.json", "text": spoilt})
-            fault, = page.frame(lambda state: [fault["line"] for fault in state["faults"]] == [line])["faults"]
-            self.assertEqual(fault["file"], "s.json")
-            self.assertIn(words, fault["text"])
-            np.testing.assert_array_equal(page.radiance(), before)
-        lamps = {**SCENE_FILE["materials"], "lamp": {"emission": [8, 6, 4]}}
-        page.send({"save": "s.json", "text": text_of({**SCENE_FILE, "materials": lamps})})
-        page.frame(lambda state: not state["faults"] and state["samples"] == 16)
-        np.testing.assert_array_equal(page.radiance(), 2 * before)  # powers of two are exact
