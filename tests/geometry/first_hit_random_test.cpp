@@ -201,7 +201,7 @@ private:
         camera = {};
         camera.struct_size = sizeof camera;
         const std::uint32_t place = whole(2);
-        const double distance = place == 0 ? uniform(0, 2) : place == 1 ? uniform(2, 6) : decades(1, 6);
+        const double distance = place == 0 ? uniform(0, 2) : place == 1 ? decades(0.3, 2.3) : decades(1, 6);
         const glm::dvec3 from = distance * glm::normalize(glm::dvec3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)));
         const pt_sphere &aim = given.spheres[whole(static_cast<std::uint32_t>(given.spheres.size()) - 1)];
         for (int i = 0; i < 3; ++i) {
@@ -216,7 +216,7 @@ private:
             camera.projection = PT_PROJECTION_ORTHOGRAPHIC;
             camera.vertical_extent = decades(-5, 3);
         } else {
-            camera.vertical_fov = std::numbers::pi / 180.0 * decades(-6, 2.23);
+            camera.vertical_fov = std::numbers::pi / 180.0 * (chance(0.5) ? uniform(1, 170) : decades(-6, 0));
             if (chance(0.3)) { // First hits use the pinhole at the lens's center.
                 camera.aperture = 0.5;
                 camera.focus = 1.0;
@@ -226,8 +226,11 @@ private:
         given.render = render_of(sides[whole(3)], 0, 1);
         given.render.height = given.render.width * 3 / 4;
         given.render.row_count = skipped_rows + rows;
-        given.render.first_row = whole(given.render.height - given.render.row_count);
-        given.first_column = whole(given.render.width - columns);
+        const bool is_middle = chance(0.5); // The target is in the middle.
+        const std::uint32_t last_row = given.render.height - given.render.row_count;
+        const std::uint32_t last_column = given.render.width - columns;
+        given.render.first_row = is_middle ? last_row / 2 : whole(last_row);
+        given.first_column = is_middle ? last_column / 2 : whole(last_column);
         given.name += camera.projection ? ", extent " + std::to_string(camera.vertical_extent)
                                         : ", fov " + std::to_string(camera.vertical_fov);
         given.name += ", " + std::to_string(given.render.width) + " wide, from " + std::to_string(distance);
@@ -237,7 +240,7 @@ private:
 };
 
 TEST_F(RandomFirstHit, IsThatOfLongDouble) {
-    const int scene_count = std::getenv("PT_TEST_MANY") ? 600 : 16;
+    const int scene_count = std::getenv("PT_TEST_MANY") ? 600 : 32;
     const char *const first = std::getenv("PT_TEST_FIRST_SCENE");
     const std::array contexts{create_context([](pt_create_info &) {}, &create_without_tree),
                               create_context([](pt_create_info &) {}, &create_with_tree)};
