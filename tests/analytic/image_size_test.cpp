@@ -1,9 +1,11 @@
 #include "tests/analytic/analytic_fixture.h"
+#include "tests/support/render_image.h"
 #include "tests/support/scene_of.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <random>
 #include <string>
@@ -35,16 +37,16 @@ protected:
         }
     }
 
-    Image render() {
+    std::vector<float> render() {
         const Shape &shape = GetParam();
-        return image_of(scene_of(materials_, {}, planes_),
-                        camera_at({0, 0, 0}, {0, 0, -1}, 2.0 * std::atan(0.5 * shape.window_height)),
-                        render_of(shape.width, shape.height, 1), sample_count);
+        return render_image(context(), scene_of(materials_, {}, planes_),
+                            camera_at({0, 0, 0}, {0, 0, -1}, 2.0 * std::atan(0.5 * shape.window_height)),
+                            render_of(shape.width, shape.height, 1), 256);
     }
 
     // Pixels whose corners see one plane must be exact. Others must be within five standard errors of the mean over a
     // grid.
-    std::uint32_t wrong_pixels(const Image &image, double shift) const {
+    std::uint32_t wrong_pixels(const std::vector<float> &image, double shift) const {
         const Shape &shape = GetParam();
         std::uint32_t wrong = 0;
         for (std::uint32_t y = 0; y < shape.height; ++y)
@@ -56,14 +58,13 @@ protected:
                 double mean = exact ? corner : 0.0;
                 for (int i = 0; i < 32 * 32 && !exact; ++i)
                     mean += emission_at(x + shift + (i % 32 + 0.5) / 32, y + shift + (i / 32 + 0.5) / 32) / (32 * 32);
-                wrong += std::abs(image.red(x, y) - mean) > (exact ? 0.0 : 0.12) ? 1 : 0;
+                const double found = image[3 * (std::size_t{y} * shape.width + x)];
+                wrong += std::abs(found - mean) > (exact ? 0.0 : 0.12) ? 1 : 0;
             }
         return wrong;
     }
 
 private:
-    static constexpr std::uint32_t sample_count = 256;
-
     double emission_at(double x, double y) const {
         const Shape &shape = GetParam();
         const double size = shape.window_height / shape.height;
@@ -85,7 +86,7 @@ private:
 };
 
 TEST_P(ImageSize, EveryPixelSeesItsPlanes) {
-    const Image image = render();
+    const std::vector<float> image = render();
     EXPECT_EQ(wrong_pixels(image, 0.0), 0U);
     EXPECT_GT(wrong_pixels(image, 1.0), 0U) << "negative control: the next pixels";
 }
