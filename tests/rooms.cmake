@@ -158,15 +158,11 @@ if(PT_SANITIZE)
       ReadbackTest.MappedImagesHaveTheSame*
       ReadbackTest.Rectangles*
       ReloadTest.AContext*
-      ReloadTest.AFolder*
       ReloadTest.AllDevices*
       ReloadTest.OtherKernels*
-      ReloadTest.The*
       Resolve.BitsAre*
       Resolve.LostSamples*
       SavedFilm.PartsAddUp*
-      ShaderSourceTest.CommentsDoNot*
-      ShaderSourceTest.EachKernel*
       SplitIntoCalls.NoSampleIsLost*
       SplitIntoCalls.StandardErrors*
       SplitOverDevices.SeveralDevices*

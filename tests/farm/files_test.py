@@ -35,14 +35,16 @@ class Files(unittest.TestCase):
         self.assertEqual(done.returncode, 0, f"{words}\n{done.stdout}")
 
     def parts(self, line):
-        self.run_line(line)
-        self.assertEqual(len(os.listdir(self.folder)), 16)
-        self.run_line(command("pt merge").replace("picture.png", "sum.exr"))
-        self.run_line(f"pt render {SCENE} --size 16x8 --spp 1024 -o one.exr -q")
+        """Renders 4 of the 16 parts."""
+        self.run_line(line.replace("64 960", "64 192"))
+        self.assertEqual(len(os.listdir(self.folder)), 4)
+        merge = command("pt merge").replace("--spp 1024", "--spp 256")
+        self.run_line(merge.replace("picture.png", "sum.exr"))
+        self.run_line(f"pt render {SCENE} --size 16x8 --spp 256 -o one.exr -q")
         self.run_line("pt compare sum.exr one.exr --max-mse 0")
         os.remove(os.path.join(self.folder, "part-64.ptfilm"))
         with self.assertRaises(AssertionError):  # Samples are missing.
-            self.run_line(command("pt merge"))
+            self.run_line(merge)
 
     def test_xargs(self):
         self.parts(command("seq "))
