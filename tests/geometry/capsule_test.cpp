@@ -99,7 +99,7 @@ protected:
 
 // Negative control: radii that are larger by 3%.
 TEST_F(Capsules, AreMetWhereTheirDistanceIsZero) {
-    Given given = random_scene(11, 40, 0, 8.0);
+    Given given = scene_of_rods(11, 40);
     given.planes.clear();
     given.spheres.resize(1);
     given.capsules.push_back({{0, 0, 0}, {0.28, 0, 0.96}, 0.3, 0});
@@ -113,7 +113,7 @@ TEST_F(Capsules, AreMetWhereTheirDistanceIsZero) {
     for (Given::Capsule &rod : thicker.capsules)
         rod.radius *= 1.03;
     EXPECT_GT(wrong_pixels(thicker, given), 50U);
-    const std::vector<Given::Capsule> others = random_scene(12, 400, 0, 8.0).capsules;
+    const std::vector<Given::Capsule> others = scene_of_rods(12, 400).capsules;
     given.capsules.insert(given.capsules.end(), others.begin(), others.end());
     EXPECT_EQ(wrong_pixels(given, given), 0U);
     EXPECT_TRUE(stats().features & PT_FEATURE_TREE);

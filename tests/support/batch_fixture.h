@@ -39,13 +39,6 @@ inline double student_bound(double false_alarm, std::size_t batch_count) {
     return std::sqrt(degrees * std::expm1(z * z / degrees));
 }
 
-// Returns the deviation in standard errors. The relative rounding error of 1e-6 allows for some dozen roundings by
-// 2^-24.
-inline double deviation(const Estimate &estimate, double expected) {
-    const double rounding = 1e-6 * std::abs(expected);
-    return (estimate.mean - expected) / std::hypot(estimate.standard_error, rounding);
-}
-
 class BatchFixture : public ContextFixture {
 protected:
     void set_up(const pt_scene &scene, const pt_camera &camera) {
