@@ -151,6 +151,7 @@ if(PT_SANITIZE)
   set(slow
       AdaptiveTest.EachTile*
       AdaptiveTest.SplitsAndResumes*
+      ApiTest.TheCallersRoundingMode*
       EstimateTest.*ThatOfTheHost
       FirstHit.Is*
       PollingTest.AnyPattern*

@@ -6,7 +6,7 @@
 #include <pt/accuracy.h>
 #include <pt/devices.h>
 
-#include <cstdlib>
+#include <algorithm>
 #include <cstring>
 
 namespace api {
