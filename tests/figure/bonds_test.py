@@ -42,7 +42,8 @@ class Automatic(unittest.TestCase):
         """The radii are 0.76 for C and 0.31 for H (Cordero 2008). The tolerance is 0.45, so C-C bonds end at 2 * 0.76 + 0.45 = 1.97
         angstroms and C-H bonds at 1.52. These are 1.410 and 1.402 times the lengths in benzene."""
         # Atoms closer than 0.4 angstroms are alternative positions of one atom.
-        for particles, factor, expected in ((BENZENE, 1.40, 12), (BENZENE, 1.405, 6), (BENZENE, 1.415, 0), (PAIR, 0.195, 0), (PAIR, 0.205, 1)):
+        for particles, factor, expected in ((BENZENE, 1.40, 12), (BENZENE, 1.405, 6), (BENZENE, 1.415, 0),
+                                            (PAIR, 0.195, 0), (PAIR, 0.205, 1)):
             scaled = Particles(particles.positions * factor, elements=particles.elements)
             self.assertEqual(len(self.pairs(scaled)), expected, factor)
 
@@ -54,8 +55,9 @@ class Automatic(unittest.TestCase):
         chain = residues(("GLY", 1, "C", 6, 0), ("GLY", 2, "N", 7, 1.3), ("CYS", 3, "SG", 16, 2.5), ("CYS", 4, "SG", 16, 4.5),
                          ("LIG", 5, "C1", 6, 6.2))
         ions = residues(("K", 1, "K", 19, 0), ("SOL", 2, "OW", 8, 2.7), ("LIG", 3, "C1", 6, -2.8))
-        for particles, expected in ((near, [[0, 1], [2, 3]]), (Particles(near.positions, elements=near.elements), [[0, 1], [1, 2], [2, 3]]),
-                                    (hydrogens, [[0, 1], [1, 2], [3, 4]]), (between, [[0, 1]]), (chain, [[0, 1], [2, 3], [3, 4]]), (ions, [])):
+        nameless = Particles(near.positions, elements=near.elements)
+        for particles, expected in ((near, [[0, 1], [2, 3]]), (nameless, [[0, 1], [1, 2], [2, 3]]), (hydrogens, [[0, 1], [1, 2], [3, 4]]),
+                                    (between, [[0, 1]]), (chain, [[0, 1], [2, 3], [3, 4]]), (ions, [])):
             self.assertEqual(self.pairs(particles), expected)
 
     def test_bonds_of_the_data_come_first(self):
@@ -146,7 +148,8 @@ class Looks(unittest.TestCase):
     def test_halves_meet_in_the_middle_of_what_is_seen(self):
         radii = np.array([0.5, 0.1])
         walled = Particles(np.array([[0.5, 0, 0], [9.5, 0, 0]]), cell=Cell.of([10, 10, 10]))
-        for particles, shown, ways in ((PAIR, radii, (1.2, -0.8)), (walled, 0.5 * radii, (-0.6, 0.4)), (PAIR, np.array([4.0, 0.1]), (2, 0))):
+        for particles, shown, ways in ((PAIR, radii, (1.2, -0.8)), (walled, 0.5 * radii, (-0.6, 0.4)),
+                                       (PAIR, np.array([4.0, 0.1]), (2, 0))):
             np.testing.assert_allclose(prepare(particles, Options(bonds=2.5, radius=shown)).rods[0].ways[:, 0], ways, atol=1e-12)
 
     def test_bonds_are_between_shown_particles(self):

@@ -107,10 +107,10 @@ class Paper(unittest.TestCase):
                                ("font_size = 0.0: must be > 0", {"font_size": 0.0})):
             with self.subTest(words=words), self.assertRaisesRegex(ValueError, words):
                 Options(**options)
-        for words, options in (("scale_bar = 900: is longer than the picture", {"size": (60, 40), "projection": "orthographic", "scale_bar": 900}),
-                               ("no room for particles beside the color bar", {"size": (48, 200), "color": "v", "colorbar": True})):
-            with self.assertRaisesRegex(ValueError, words):
-                self.figure(**options).to_srgb8()
+        with self.assertRaisesRegex(ValueError, "scale_bar = 900: is longer than the picture"):
+            self.figure(size=(60, 40), projection="orthographic", scale_bar=900).to_srgb8()
+        with self.assertRaisesRegex(ValueError, "no room for particles beside the color bar"):
+            self.figure(size=(48, 200), color="v", colorbar=True)
 
     def test_the_height_follows_from_the_data(self):
         drawn = prepare(Particles(POSITIONS), Options(radius=0.3))

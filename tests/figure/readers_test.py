@@ -208,8 +208,8 @@ class Users(unittest.TestCase):
             self.assertEqual(len(load(DATA / "trials" / name, drop_nonfinite=True)), count)
 
     def test_columns_by_name_and_by_number(self):
-        for columns, expected in (("x=vel_x,y=pos_y,z=pos_x", [[3, 0, 0], [4, 0, 1]]), ({"x": "6", "y": "4", "z": "3"}, [[3, 0, 0], [4, 0, 1]]),
-                                  ("x=vel_x,y=pos_y,z=pos_y", [[3, 0, 0], [4, 0, 0]])):
+        for columns, expected in (("x=vel_x,y=pos_y,z=pos_x", [[3, 0, 0], [4, 0, 1]]), ("x=vel_x,y=pos_y,z=pos_y", [[3, 0, 0], [4, 0, 0]]),
+                                  ({"x": "6", "y": "4", "z": "3"}, [[3, 0, 0], [4, 0, 1]])):
             np.testing.assert_array_equal(load(DATA / "trials/posx.csv", columns=columns).positions, expected)
         for columns, said in (("x=speed", "no column 'speed': the columns are id, type, pos_x"), ("w=id", "for one of x, y")):
             with self.assertRaisesRegex(DataError, said):

@@ -60,8 +60,9 @@ class Lines(unittest.TestCase):
             shapes = shares.shapes
             edges = staged.scene.sphere_arrays[1]
             self.assertEqual(shapes.max(), 1.0)  # inside balls
-            apart, apart_of_wider = (np.abs(shapes - share(are_hit(*rays(staged.layout.camera, *np.multiply(SIZE, PER_SIDE)), *cell_edges(CELL),
-                                                                   edges.radius[0] * factor))).max() for factor in (1, 1.2))
+            seen = rays(staged.layout.camera, *np.multiply(SIZE, PER_SIDE))
+            apart, apart_of_wider = (np.abs(shapes - share(are_hit(*seen, *cell_edges(CELL), edges.radius[0] * factor))).max()
+                                     for factor in (1, 1.2))
             self.assertTrue(apart < 2.5 / 16 < apart_of_wider)
 
     def test_edges_have_their_width_in_pixels(self):
@@ -89,7 +90,8 @@ class Lines(unittest.TestCase):
     def test_outlines_go_round_a_ball(self):
         """The axis of the view goes through the ball, whose silhouette is a circle."""
         for projection in ("perspective", "orthographic"):
-            figure = pt.figure(np.zeros((1, 3)), radius=1.0, projection=projection, size=(96, 72), samples=1, outlines=True, context=self.context)
+            figure = pt.figure(np.zeros((1, 3)), radius=1.0, projection=projection, size=(96, 72), samples=1, outlines=True,
+                               context=self.context)
             camera, outlines = figure.camera, figure._shares.outlines
             if camera.vertical_extent is None:
                 radius = 36 * np.tan(np.arcsin(1 / np.linalg.norm(camera.position))) / np.tan(0.5 * camera.vertical_fov)

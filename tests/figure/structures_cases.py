@@ -27,8 +27,8 @@ MMCIF = "data_x\n" + loop(
     Cartn_x Cartn_y Cartn_z occupancy auth_seq_id auth_asym_id pdbx_PDB_model_num""",
     "ATOM 1 C CA . ALA A 1 1 0 0 0 1 7 Q 3", "ATOM 2 S SG . CYS A 1 2 5 0 0 1 8 Q 3", "ATOM 3 S SG . CYS B 1 2 7 0 0 1 9 R 3",
     "ATOM 4 C CA . ALA A 1 1 1 0 0 1 7 Q 5") + loop(
-    "struct_conn", """id conn_type_id ptnr1_label_asym_id ptnr1_label_comp_id ptnr1_label_seq_id ptnr1_label_atom_id ptnr1_auth_asym_id
-    ptnr1_auth_seq_id ptnr2_label_asym_id ptnr2_label_comp_id ptnr2_label_seq_id ptnr2_label_atom_id ptnr2_auth_asym_id ptnr2_auth_seq_id""",
+    "struct_conn", "id conn_type_id " + " ".join(f"ptnr{end}_{key}" for end in (1, 2) for key in (
+        "label_asym_id", "label_comp_id", "label_seq_id", "label_atom_id", "auth_asym_id", "auth_seq_id")),
     "disulf1 disulf A CYS 2 SG Q 8 B CYS 2 SG R 9")
 
 LAMMPS = "made up\n\n{atoms} atoms\n{types} atom types\n{more}\n-1 3 xlo xhi\n-2 2 ylo yhi\n0 5 zlo zhi\n{masses}\nAtoms{hint}\n\n{rows}\n"

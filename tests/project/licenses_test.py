@@ -20,7 +20,8 @@ BINARIES = {"lib/libpt.so.": "runtime", "bin/pt:": "program", "lib/pt/libpt-glsl
 
 def parts():
     """Maps (component, header or library or file) to the name of the part."""
-    return {(component, each): name for name, _, components, found_as, *_ in ROWS for component in components.split() for each in found_as.split()}
+    return {(component, each): name for name, _, components, found_as, *_ in ROWS
+            for component in components.split() for each in found_as.split()}
 
 
 def foreign_headers(text):

@@ -94,8 +94,9 @@ class Quickstart(unittest.TestCase):
         self.assertRegex(line, "python3 -m pip install .*--target build/python-modules gemmi==.* chemfiles==")
 
     def test_nothing_goes_on_after_a_failure(self):
-        for command, failing, code, not_run in (("render", "cmake --preset release=3", 3, "pt"), ("render", "apt-get install=100", 100, "cmake"),
-                                                ("test", "python3 -c import chemfiles=1|python3 -m pip=1", 1, "cmake"), ("rendr", "", 2, "")):
+        for command, failing, code, not_run in (
+                ("render", "cmake --preset release=3", 3, "pt"), ("render", "apt-get install=100", 100, "cmake"),
+                ("test", "python3 -c import chemfiles=1|python3 -m pip=1", 1, "cmake"), ("rendr", "", 2, "")):
             self.assertEqual(self.run_script(command, failing=failing), code)
             self.assertFalse([line for line in self.lines if line.startswith(not_run)])
 

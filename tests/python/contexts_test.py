@@ -189,8 +189,8 @@ class Interrupts(unittest.TestCase):
             self.assertIs(self.context.set_scene(MANY_SPHERES, lambda _: value), pt.Result.OK)
 
     def test_what_progress_raises(self):
-        fail = mock.Mock(side_effect=LookupError("where it is"))
-        for error, words, progress in (LookupError, "where it is", fail), (KeyboardInterrupt, "", lambda _: signal.raise_signal(signal.SIGINT)):
+        fail, interrupt = mock.Mock(side_effect=LookupError("where it is")), lambda _: signal.raise_signal(signal.SIGINT)
+        for error, words, progress in (LookupError, "where it is", fail), (KeyboardInterrupt, "", interrupt):
             self.context.accumulate(4)
             film = self.context.film()
             with self.assertRaisesRegex(error, words):

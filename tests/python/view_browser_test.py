@@ -97,7 +97,8 @@ class Browser(unittest.TestCase):
         exr = self.downloaded("exr", "picture.exr")
         for name, value in (("curve", "agx"), ("gamma", "1.8"), ("exposure", "-1")):
             self.browser.value(choose(name, value))
-        subprocess.run([PROGRAM, "tonemap", "-q", exr, self.folder / "t.png", "--tonemap", "agx", "--exposure", "-1", "--gamma", "1.8"], check=True)
+        subprocess.run([PROGRAM, "tonemap", "-q", exr, self.folder / "t.png", "--tonemap", "agx", "--exposure", "-1",
+                        "--gamma", "1.8"], check=True)
         expected = np.array(parse_png((self.folder / "t.png").read_bytes())[2], np.uint8).reshape(-1, 3)
         np.testing.assert_array_equal(self.bytes_shown(), expected)
         self.browser.value(click("play"))
