@@ -52,7 +52,7 @@ void run(const Bytes &input) {
 // Half of the new bytes are copies, which texts more often accept.
 Bytes changed(Bytes input, std::mt19937 &random) {
     for (std::uint32_t changes = 1 + random() % 4; changes > 0 && !input.empty(); --changes) {
-        const auto place = input.begin() + random() % input.size();
+        const auto place = input.begin() + static_cast<std::ptrdiff_t>(random() % input.size());
         const std::uint8_t byte =
             random() % 2 == 0 ? input[random() % input.size()] : static_cast<std::uint8_t>(random());
         const std::uint32_t kind = random() % 4;
