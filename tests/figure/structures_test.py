@@ -2,7 +2,7 @@ import gzip
 import importlib.util
 import pathlib
 import struct
-import sys
+import unittest
 import unittest.mock
 import warnings
 
@@ -13,10 +13,6 @@ from pt.figures._elements import SYMBOLS
 from pt.figures._errors import DataError
 from structures_cases import CASES, MMCIF, REFUSED, gro, lammps
 
-if any(importlib.util.find_spec(name) is None for name in ("gemmi", "chemfiles", "gsd")):
-    print("gemmi, chemfiles or gsd is not installed")
-    sys.exit(77)
-
 DAMAGES = 6
 LETTERS = b" \n0123456789.-+eEdX\"'\t\xff\0"
 
@@ -26,8 +22,15 @@ DATA = pathlib.Path(__file__).resolve().parents[2] / "tests/data/structures"
 class InAFolder(readers_test.InAFolder):
     def setUp(self):
         super().setUp()
-        self.enterContext(warnings.catch_warnings())
-        warnings.simplefilter("error")
+        self.enterContext(warnings.catch_warnings(action="error"))
+
+    def read(self, name, content, **options):
+        try:
+            return super().read(name, content, **options)
+        except DataError as error:
+            if "needs the module" in str(error):
+                self.skipTest(str(error))
+            raise
 
     def check(self, found, atoms, *, x=None, cell=0, origin=None, periodic=None, bonds=None, radii=None, note=None):
         if isinstance(atoms, str):
@@ -59,9 +62,8 @@ class Small(InAFolder):
 
     def test_what_is_refused(self):
         for name, text, message in REFUSED:
-            with self.subTest(message), self.assertRaises(DataError) as raised:
-                self.read(name, text)
-            self.assertEqual(str(raised.exception).replace(f"{self.folder}/", "")[:len(message)], message)
+            with self.subTest(message):
+                self.assertEqual(self.refusal(name, text)[:len(message)], message)
 
     def test_chains_of_mmcif_in_parts_and_of_long_names(self):
         for part, chain in ((5000, "Q"), (1, "Q"), (1, "'a long name'")):
@@ -111,7 +113,7 @@ class Damaged(InAFolder):
     def test_damages(self):
         generator = np.random.default_rng(1)
         refused = 0
-        paths = sorted(path for path in (*DATA.iterdir(), *readers_test.DATA.glob("*.*")) if path.suffix != ".zst")
+        paths = sorted([*DATA.iterdir(), *readers_test.DATA.glob("*.*")])
         files = [(name, text.encode()) for name, text, *_ in CASES] + [(path.name, path.read_bytes()) for path in paths]
         for name, data in files:
             for _ in range(DAMAGES):
@@ -132,6 +134,7 @@ class Damaged(InAFolder):
 
 
 class Binary(InAFolder):
+    @unittest.skipUnless(importlib.util.find_spec("gsd"), "gsd is not installed")
     def test_gsd_is_centred(self):
         from gsd import hoomd
         frame = getattr(hoomd, "Frame", getattr(hoomd, "Snapshot", None))()
@@ -146,6 +149,7 @@ class Binary(InAFolder):
         self.check(found, ["A", "B"], x=[-1, 1], cell=[4, 45**0.5, 8], origin=[-3.5, -3, -4], bonds=[[0, 1]])
         self.assertIsNone(found.radii)  # The file omits HOOMD's default diameter.
 
+    @unittest.skipUnless(importlib.util.find_spec("chemfiles"), "chemfiles is not installed")
     def test_trajectories_take_their_atoms_from_the_topology(self):
         import chemfiles
         path, topology = self.folder / "a.xtc", self.folder / "a.gro"
