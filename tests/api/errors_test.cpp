@@ -114,28 +114,6 @@ TEST_F(ErrorsTest, WriteNoMoreThanTheCallerKnows) {
     EXPECT_EQ(rule.value, untouched.value);
 }
 
-TEST_F(ErrorsTest, BelongToWhoMayLookAtThem) {
-    set_all();
-    EXPECT_LT(pt_set_camera(context(), nullptr), PT_OK);
-    struct Seen {
-        pt_context *context;
-        uint64_t before, refused, elsewhere;
-    } seen{context(), 9, 9, 9};
-    const auto look = [](void *user, double) -> int32_t {
-        Seen &found = *static_cast<Seen *>(user);
-        found.before = pt_get_broken_rule(found.context, 0, nullptr);
-        std::thread([&] { found.elsewhere = pt_get_broken_rule(found.context, 0, nullptr); }).join();
-        pt_set_camera(found.context, nullptr);
-        found.refused = pt_get_broken_rule(found.context, 0, nullptr);
-        return 1;
-    };
-    const pt_accumulate_info info = accumulate_info(1, 0.0, look, &seen);
-    EXPECT_GE(pt_accumulate(context(), &info), PT_OK) << message();
-    EXPECT_EQ(seen.before, 1U);
-    EXPECT_EQ(seen.elsewhere, 0U);
-    EXPECT_EQ(seen.refused, 0U);
-}
-
 TEST(Errors, WithoutAContextBelongToTheirThread) {
     auto info = sized<pt_create_info>();
     info.device = "999";

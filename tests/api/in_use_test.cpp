@@ -1,15 +1,13 @@
-#include "lib/api/in_use.h"
 #include "tests/api/api_fixture.h"
 #include "tests/api/every_call.h"
 #include "tests/support/scene_of.h"
 
-#include <pt/accuracy.h>
-#include <pt/devices.h>
-#include <pt/shaders.h>
+#include <pt/errors.h>
 
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -49,49 +47,35 @@ protected:
 TEST_F(InUseTest, CallsFromACallbackAreRefused) {
     set_all();
     Outcomes inside;
-    accumulate_and([&] { inside = outcomes_of_every_call(context()); });
+    accumulate_and([&] {
+        inside = outcomes_of_every_call(context());
+        EXPECT_EQ(pt_get_broken_rule(context(), 0, nullptr), 0U);
+    });
     expect_all_refused(inside, from_callback);
     EXPECT_EQ(message(), from_callback) << "the last call that failed";
     expect_image(1);
     EXPECT_EQ(message(), "") << "that was refused before a call that was not";
 }
 
-TEST_F(InUseTest, CallsFromACallbackOfASceneAreRefused) {
-    set_all();
-    struct Inside {
-        pt_context *context;
-        Outcomes outcomes = {};
-        static std::int32_t progress(void *user, double) {
-            auto *const inside = static_cast<Inside *>(user);
-            inside->outcomes = outcomes_of_every_call(inside->context);
-            return 0;
-        }
-    } inside{context()};
-    pt_scene scene = valid_scene();
-    scene.progress = &Inside::progress;
-    scene.progress_user = &inside;
-    EXPECT_EQ(pt_set_scene(context(), &scene), PT_OK) << message();
-    expect_all_refused(inside.outcomes, from_callback);
-    accumulate(1);
-    expect_image(1);
-}
-
 TEST_F(InUseTest, CallsFromAnotherThreadAreRefused) {
     set_all();
+    EXPECT_EQ(pt_set_scene(context(), nullptr), PT_ERROR_INVALID_ARGUMENT);
+    const std::string own = message();
     Outcomes elsewhere;
     std::string before, after, here;
     accumulate_and([&] {
         std::thread([&] {
             before = pt_last_error(context());
+            EXPECT_EQ(pt_get_broken_rule(context(), 0, nullptr), 0U);
             elsewhere = outcomes_of_every_call(context());
         }).join();
         here = message();
     });
     expect_all_refused(elsewhere, from_thread);
     EXPECT_EQ(before, from_thread) << "not even the message is to be had";
-    EXPECT_EQ(here, "") << "this thread's calls have not failed";
+    EXPECT_EQ(here, own) << "this thread's calls have not failed since";
     expect_image(1);
-    EXPECT_EQ(message(), "");
+    EXPECT_EQ(message(), own);
 }
 
 TEST_F(InUseTest, AnExceptionOfACallbackIsAnErrorThatKeepsTheFilmWhole) {
