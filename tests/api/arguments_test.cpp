@@ -55,6 +55,10 @@ TEST_F(ApiTest, AccuracyNeedsNoScene) {
     }
 }
 
+TEST(Api, TheVersionIsThatOfTheHeader) {
+    EXPECT_EQ(pt_version(), PT_VERSION);
+}
+
 TEST(Api, CreateRefusesWhatItDoesNotKnow) {
     auto info = sized<pt_create_info>();
     info.flags = 6;
