@@ -12,10 +12,8 @@ pt_add_tests(
   film/error_estimate_test.cpp
   film/film_bytes_test.cpp
   film/film_calls_test.cpp
-  film/film_parts_test.cpp
   film/film_test.cpp
   film/image_test.cpp
-  film/pixel_format_test.cpp
   film/pixel_sums_test.cpp
   film/tile_errors_test.cpp
   film/tile_samples_test.cpp
@@ -156,7 +154,6 @@ if(PT_SANITIZE)
       FirstHit.Is*
       PollingTest.AnyPattern*
       PollingTest.ATarget*
-      ReadbackTest.MappedImagesHaveTheSame*
       ReadbackTest.Rectangles*
       ReloadTest.AContext*
       ReloadTest.AllDevices*
@@ -165,12 +162,11 @@ if(PT_SANITIZE)
       Resolve.LostSamples*
       SavedFilm.PartsAddUp*
       SplitIntoCalls.NoSampleIsLost*
-      SplitIntoCalls.StandardErrors*
       SplitOverDevices.SeveralDevices*
   )
   list(JOIN slow ":" slow)
   set(but "-${slow}")
-  set(rest "${quick}:${slow};PT_TEST_SPLITS=1")
+  set(rest "${quick}:${slow}")
 else()
   set(rest "${quick}")
 endif()

@@ -2,7 +2,6 @@
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
-#include "tests/support/image_target.h"
 #include "tests/support/scene_of.h"
 #include "tests/support/shared_context.h"
 
@@ -11,7 +10,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <random>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -65,13 +63,13 @@ protected:
         ASSERT_GE(pt_accumulate(on, &info), PT_OK) << pt_last_error(on);
     }
 
-    static std::vector<float> read(pt_context *from, std::uint32_t quantity, std::uint32_t rows = picture_height) {
-        return values_of(from, std::size_t{picture_width} * rows, quantity);
+    static std::vector<float> read(pt_context *from, std::uint32_t quantity) {
+        return values_of(from, std::size_t{picture_width} * picture_height, quantity);
     }
 
-    static void expect_that_of_radiance(pt_context *of, std::uint32_t rows = picture_height) {
-        const std::vector<float> expected = read(of, PT_QUANTITY_RADIANCE, rows);
-        EXPECT_EQ(read(of, PT_QUANTITY_COVERAGE, rows), expected);
+    static void expect_that_of_radiance(pt_context *of) {
+        const std::vector<float> expected = read(of, PT_QUANTITY_RADIANCE);
+        EXPECT_EQ(read(of, PT_QUANTITY_COVERAGE), expected);
         EXPECT_TRUE(std::ranges::any_of(expected, [](float value) { return value > 0.0F && value < 1.0F; }));
     }
 };
@@ -117,19 +115,12 @@ TEST_F(Coverage, OfManySamplesIsTakenInParts) {
         }
     }
 
-    constexpr std::uint32_t width = 400;
-    constexpr std::uint32_t height = 300;
-    pt_render large = render_of(width, height, 1);
+    pt_render large = render_of(400, 300, 1);
     large.flags = PT_RENDER_COVERAGE;
     set(hurried.get(), some(5, 1.0), large);
     take(hurried.get(), 2);
-    std::vector<float> radiance(std::size_t{3} * width * height);
-    std::vector<float> covered(radiance.size());
-    const pt_image of_radiance = image_target(radiance);
-    const pt_image of_coverage = image_target(covered, PT_QUANTITY_COVERAGE);
-    ASSERT_EQ(pt_readback(hurried.get(), &of_radiance), PT_OK) << pt_last_error(hurried.get());
-    ASSERT_EQ(pt_readback(hurried.get(), &of_coverage), PT_OK) << pt_last_error(hurried.get());
-    EXPECT_TRUE(covered == radiance);
+    const auto values = [&](std::uint32_t quantity) { return values_of(hurried.get(), 400 * 300, quantity); };
+    EXPECT_TRUE(values(PT_QUANTITY_COVERAGE) == values(PT_QUANTITY_RADIANCE));
 }
 
 TEST_F(Coverage, KnowsWhichSamplesEachTileHas) {
@@ -161,31 +152,12 @@ TEST_F(Coverage, KnowsWhichSamplesEachTileHas) {
     expect_that_of_radiance(context());
 }
 
-TEST_F(Coverage, OfPartsIsPartOfTheWhole) {
+TEST_F(Coverage, OfSeveralDevicesAndOfLittleToHit) {
     const Context shared = create_context([](pt_create_info &) {}, shared_by(2, true));
     ASSERT_TRUE(shared);
     set(shared.get(), some(90, 1.0), picture());
     take(shared.get(), 6);
     expect_that_of_radiance(shared.get());
-    const std::vector<float> whole = read(shared.get(), PT_QUANTITY_COVERAGE);
-
-    constexpr std::uint32_t rows = 12;
-    pt_render piece = picture();
-    piece.first_row = 5;
-    piece.row_count = rows;
-    set(context(), some(90, 1.0), piece);
-    take(context(), 6);
-    expect_that_of_radiance(context(), rows);
-    EXPECT_TRUE(
-        std::ranges::equal(read(context(), PT_QUANTITY_COVERAGE, rows),
-                           std::span(whole).subspan(std::size_t{3} * 5 * picture_width, 3 * rows * picture_width)));
-    std::vector<float> part(std::size_t{3} * 11 * 7);
-    pt_image target = image_target(part, PT_QUANTITY_COVERAGE);
-    set_part(target, {9, 2, 11, 7});
-    ASSERT_EQ(pt_readback(context(), &target), PT_OK) << pt_last_error(context());
-    for (std::size_t row = 0; row < 7; ++row)
-        EXPECT_TRUE(std::ranges::equal(std::span(part).subspan(row * 33, 33),
-                                       std::span(whole).subspan(3 * ((7 + row) * picture_width + 9), 33)));
 
     Shining narrow = some(0, 0.0);
     narrow.planes.clear();

@@ -78,24 +78,6 @@ TEST(FilmBytes, Version1StaysReadable) {
     }
 }
 
-TEST(FilmBytes, AreWrittenAsTheyWereRead) {
-    const Bytes golden = golden_film();
-    const pt::FilmReader film(golden);
-    Bytes bytes(pt::FilmLayout(golden_header).size_bytes());
-    pt::FilmWriter writer(golden_header, bytes);
-    for (std::size_t tile = 0; tile < golden_header.tiles.size(); ++tile) {
-        const std::uint64_t pixel_count = golden_header.tiles[tile].pixels.pixel_count();
-        for (std::uint64_t first = 0; first < pixel_count; first += 3) {
-            pt::PixelSums sums;
-            sums.resize(std::min<std::uint64_t>(3, pixel_count - first));
-            film.read(tile, first, sums);
-            writer.write(tile, first, sums);
-        }
-    }
-    writer.end();
-    EXPECT_EQ(bytes, golden);
-}
-
 TEST(FilmBytes, EveryBitCounts) {
     const Bytes golden = golden_film();
     for (std::size_t bit = 0; bit < 8 * golden.size(); ++bit) {
@@ -125,9 +107,10 @@ std::string with_planes(std::string header) {
 
 TEST(FilmBytes, HeadersHaveOneForm) {
     constexpr std::size_t pixel_bytes = 56;
+    const std::string range = ": must be a range of indices below 2^32 that begins after the end of the previous one";
     const struct {
         const char *header;
-        const char *message;
+        std::string message;
     } cases[] = {
         {"", "film: these bytes are not a film"},
         {"pt film 1", "film: its header has no end"},
@@ -139,18 +122,10 @@ TEST(FilmBytes, HeadersHaveOneForm) {
         {"pt film 1\ntile 0 0 1 0\n\n", "film: tile = 0 0 1 0: must have from 1 to 2^32 - 1 pixels"},
         {"pt film 1\ntile 0 0 65536 65536\n\n", "film: tile = 0 0 65536 65536: must have from 1 to 2^32 - 1 pixels"},
         {"pt film 1\nsamples 0 1\n\n", "film: samples are not two numbers after a tile"},
-        {"pt film 1\ntile 0 0 1 1\nsamples 1 1\n\n",
-         "film: samples = 1 1: must be a range of indices below 2^32 that begins after the end of the previous one"},
-        {"pt film 1\ntile 0 0 1 1\nsamples 0 4294967297\n\n",
-         "film: samples = 0 4294967297: must be a range of indices below 2^32 that begins after the end of the "
-         "previous one"},
-        {"pt film 1\ntile 0 0 1 1\nsamples 0 2\nsamples 1 3\n\n",
-         "film: samples = 1 3: must be a range of indices below 2^32 that begins after the end of the previous one"},
+        {"pt film 1\ntile 0 0 1 1\nsamples 1 1\n\n", "film: samples = 1 1" + range},
+        {"pt film 1\ntile 0 0 1 1\nsamples 0 4294967297\n\n", "film: samples = 0 4294967297" + range},
+        {"pt film 1\ntile 0 0 1 1\nsamples 0 1\nsamples 1 2\n\n", "film: samples = 1 2" + range},
         {"pt film 1\ntile 0 0 1 1\nsamples 0 4294967296\n\n", "film: samples: a pixel holds at most 2^32 - 1"},
-        {"pt film 1\ntile 0 0 1 1\nsamples 2 3\nsamples 0 1\n\n",
-         "film: samples = 0 1: must be a range of indices below 2^32 that begins after the end of the previous one"},
-        {"pt film 1\ntile 0 0 1 1\nsamples 0 1\nsamples 1 2\n\n",
-         "film: samples = 1 2: must be a range of indices below 2^32 that begins after the end of the previous one"},
         {"pt film 1\ntile 0 0 1 1\n\n", "film: a tile has no samples"},
         {"pt film 1\ntile 18446744073709551615 0 2 1\nsamples 0 1\n\n",
          "film: tile = 18446744073709551615 0 2 1: must have from 1 to 2^32 - 1 pixels"},
@@ -173,7 +148,7 @@ TEST(FilmBytes, HeadersHaveOneForm) {
             const pt::FilmReader film(bytes);
         });
         EXPECT_EQ(error.code(), PT_ERROR_INCOMPATIBLE);
-        EXPECT_EQ(error.what(), std::string(message)) << header;
+        EXPECT_EQ(error.what(), message) << header;
     }
     const std::string header = with_planes("pt film 1\nseed 1\ntile 0 0 1 1\nsamples 0 1\n\n");
     for (const std::size_t wrong : {pixel_bytes - 1, pixel_bytes + 1}) {

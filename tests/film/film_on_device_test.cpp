@@ -1,6 +1,8 @@
 #include "lib/kernel/device_film.h"
 
 #include "film_sums.spv.h"
+#include "tests/film/film_words.h"
+#include "tests/film/random_sums.h"
 #include "tests/kernel/probe.h"
 #include "tests/vulkan/device_fixture.h"
 
@@ -10,18 +12,15 @@
 #include <cmath>
 #include <limits>
 #include <random>
-#include <span>
 #include <vector>
 
 namespace {
 
-__extension__ using Wide = unsigned __int128;
-
 constexpr std::uint32_t pixels = 1000;
 constexpr std::uint32_t per_pixel = 40;
 
-Wide multiple_of_2_to_minus_60(float value) {
-    return static_cast<Wide>(std::nearbyint(std::ldexp(double{value}, 60)));
+pt::WideSum multiple_of_2_to_minus_60(float value) {
+    return static_cast<pt::WideSum>(std::nearbyint(std::ldexp(double{value}, 60)));
 }
 
 bool acceptable(const glm::vec4 &sample) {
@@ -73,7 +72,7 @@ TEST(Film, DeviceSumsAreExact) {
                             [](std::uint32_t value) { return value == 0; }));
 
     for (std::uint32_t pixel = 0; pixel < pixels; ++pixel) {
-        Wide sums[3] = {};
+        pt::WideSum sums[3] = {};
         std::uint32_t accepted = 0;
         for (std::uint32_t i = 0; i < per_pixel; ++i) {
             const glm::vec4 &sample = samples[pixel * per_pixel + i];
@@ -103,44 +102,10 @@ TEST(Film, WindowsHoldTheMostSamplesThatAnInvocationGathers) {
     const auto film = Probe(film_sums_spirv(), sizeof push)
                           .run<std::uint32_t>(samples, push.count * pt::film_planes(false), push, push.count);
     for (std::uint32_t pixel = 0; pixel < push.count; ++pixel) {
-        const Wide sum = push.per_pixel * multiple_of_2_to_minus_60(extremes[pixel]);
+        const pt::WideSum sum = push.per_pixel * multiple_of_2_to_minus_60(extremes[pixel]);
         for (std::size_t i = 0; i < 4; ++i)
             EXPECT_EQ(film[i * push.count + pixel], static_cast<std::uint32_t>(sum >> (32 * i))) << extremes[pixel];
     }
-}
-
-struct Part {
-    std::uint32_t red;
-    std::uint32_t accepted;
-    std::uint32_t rejected;
-};
-
-pt::PixelSums one_pixel(const Part &older, const Part &newer) {
-    pt::PixelSums sums;
-    sums.resize(1);
-    const auto set = [&](const Part &part, pt::FilmPart index) {
-        for (std::size_t plane = 0; plane < pt::gpu::FILM_WORDS; ++plane)
-            sums.plane(index, plane)[0] = 0;
-        const std::uint64_t sum = std::uint64_t{part.red} << (pt::gpu::FILM_FRACTION_BITS - 32);
-        sums.plane(index, 1)[0] = static_cast<std::uint32_t>(sum);
-        sums.plane(index, 2)[0] = static_cast<std::uint32_t>(sum >> 32);
-        sums.plane(index, pt::gpu::FILM_ACCEPTED)[0] = part.accepted;
-        sums.plane(index, pt::gpu::FILM_REJECTED)[0] = part.rejected;
-    };
-    set(older, pt::older_part);
-    set(newer, pt::newer_part);
-    return sums;
-}
-
-TEST(Film, SumsThatNoSamplesHaveAreSeen) {
-    EXPECT_TRUE(one_pixel({9, 1, 0}, {0, 0, 1}).holds({1, 1}));
-    EXPECT_FALSE(one_pixel({9, 1, 0}, {0, 0, 1}).holds({1, 2}));
-    EXPECT_FALSE(one_pixel({9, 0, 1}, {0, 0, 1}).holds({1, 1})) << "light without accepted samples";
-    pt::PixelSums bright = one_pixel({0, 3, 0}, {0, 1, 0});
-    bright.plane(pt::older_part, 2)[0] = 3U << (pt::gpu::FILM_MAX_EXPONENT + pt::gpu::FILM_FRACTION_BITS - 64);
-    EXPECT_TRUE(bright.holds({3, 1}));
-    bright.plane(pt::older_part, 0)[0] = 1;
-    EXPECT_FALSE(bright.holds({3, 1}));
 }
 
 using FilmStrips = VulkanFixture;
@@ -149,23 +114,17 @@ TEST_F(FilmStrips, AreReadAsOne) {
     constexpr std::uint32_t film_pixels = 16;
     pt::DeviceFilm film(device(), 4, 4, 6);
     ASSERT_EQ(film.strips().size(), 3U);
-    for (pt::DeviceFilm::Strip &strip : film.strips()) {
-        std::vector<std::uint32_t> words;
-        for (std::uint32_t plane = 0; plane < pt::film_planes(false); ++plane)
-            for (std::uint32_t i = 0; i < strip.pixel_count; ++i)
-                words.push_back(100 * plane + strip.first_pixel + i);
-        strip.words.upload(std::as_bytes(std::span(words)), 0);
-    }
+    const pt::PixelSums whole = film_of(RandomSums().pixels(film_pixels));
+    fill(device(), film, whole);
     for (std::uint32_t first = 0; first < film_pixels; ++first)
         for (std::uint32_t count = 1; first + count <= film_pixels; ++count) {
-            pt::PixelSums sums;
-            sums.resize(count);
-            film.read(first, sums);
-            for (std::uint32_t plane = 0; plane < pt::film_planes(false); ++plane)
-                for (std::uint32_t i = 0; i < count; ++i)
-                    ASSERT_EQ(sums.plane(plane / pt::gpu::FILM_WORDS, plane % pt::gpu::FILM_WORDS)[i],
-                              100 * plane + first + i)
-                        << first << ", " << count;
+            pt::PixelSums expected;
+            pt::PixelSums found;
+            expected.resize(count);
+            found.resize(count);
+            expected.copy(whole, first, count, 0);
+            film.read(first, found);
+            ASSERT_TRUE(found == expected) << first << ", " << count;
         }
 }
 

@@ -96,113 +96,31 @@ TEST(Film, SumsHaveTheBytesOfTheirSamplesInAnyOrder) {
 }
 
 TEST(Film, KnowsTheSamplesForLampsOfAllThatWereAdded) {
-    Samples first;
-    Samples second;
-    give(first, grid(image_width, image_height).front(), {0});
-    give(second, grid(image_width, image_height).front(), {1});
-    const auto film_with = [](const Samples &samples, const std::vector<pt::LampSquare> &lamps) {
+    const auto film_with = [](std::uint32_t sample, const std::vector<pt::LampSquare> &lamps) {
+        Samples samples;
+        give(samples, {0, 0, image_width, image_height}, {sample});
         return pt::Film(film_maker::film_of(film_maker::identity(image_width, image_height),
                                             film_maker::tiles_of(samples), samples, lamps));
     };
-    pt::Film sum = film_with(first, {{8, 0, 30}, {0, 8, 20}});
-    sum.add(film_with(second, {{0, 0, 5}, {8, 0, 40}}));
+    pt::Film sum = film_with(0, {{8, 0, 30}, {0, 8, 20}});
+    sum.add(film_with(1, {{0, 0, 5}, {8, 0, 40}}));
     EXPECT_EQ(sum.header().lamps, (std::vector<pt::LampSquare>{{0, 0, 5}, {8, 0, 40}, {0, 8, 20}}));
     EXPECT_EQ(sum.samples_for_lamps(), 40U);
-    EXPECT_EQ(pt::Film(bytes_of(sum)).header().lamps, sum.header().lamps);
 }
 
-TEST(Film, KnowsItsSamplesBySquaresThatNoTileCuts) {
+// One tile has another sample, or a pixel has none.
+TEST(Film, HasNoSamplesBySquaresThatATileCuts) {
     Samples samples;
-    std::uint32_t count = 0;
-    for (const pt::Rectangle &tile : grid(8, 8)) {
-        count = count % 3 + 1;
-        for (std::uint32_t i = 0; i < count; ++i)
-            give(samples, tile, {i});
+    give(samples, {0, 0, image_width, image_height}, {0});
+    EXPECT_EQ(pt::Film(film_by_sample(samples)).samples_by_tile().grid().count(), grid(8, 8).size());
+    Samples cut = samples;
+    give(cut, {9, 3, 2, 1}, {7});
+    Samples gap = samples;
+    gap.erase({2, 2});
+    for (const Samples &each : {cut, gap}) {
+        const pt::Film film(film_by_sample(each));
+        EXPECT_EQ(error_of([&] { (void)film.samples_by_tile(); }).code(), PT_ERROR_INCOMPATIBLE);
     }
-    const pt::TileSamples found = pt::Film(film_by_sample(samples)).samples_by_tile();
-    ASSERT_EQ(found.grid().count(), grid(8, 8).size());
-    for (std::size_t tile = 0; tile < found.grid().count(); ++tile)
-        EXPECT_EQ(found.of(tile).count(), tile % 3 + 1) << tile;
-    give(samples, {9, 3, 2, 1}, {7});
-    const pt::Film cut(film_by_sample(samples));
-    EXPECT_EQ(error_of([&] { (void)cut.samples_by_tile(); }).code(), PT_ERROR_INCOMPATIBLE);
-    samples.erase({2, 2});
-    Samples without = samples;
-    for (auto &[pixel, indices] : without)
-        indices.erase(7);
-    const pt::Film gap(film_by_sample(without));
-    EXPECT_EQ(error_of([&] { (void)gap.samples_by_tile(); }).code(), PT_ERROR_INCOMPATIBLE);
-}
-
-TEST(Film, MeansAndErrorsAreRoundedOnce) {
-    Samples samples;
-    give(samples, {0, 0, image_width, image_height}, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11});
-    const pt::Film film(film_by_sample(samples));
-    film.read(film.bounds(), PT_QUANTITY_RADIANCE,
-              [&](std::uint32_t, std::uint32_t y, const std::vector<float> &values) {
-                  for (std::uint32_t i = 0; i < image_width; ++i)
-                      for (std::uint32_t channel = 0; channel < 3; ++channel) {
-                          const film_maker::Pixel pixel{y, i};
-                          long double sum = 0.0L; // exact: 12 numbers below 2^84 with 24 bits each
-                          int accepted = 0;
-                          for (std::uint32_t index = 0; index < 12; ++index)
-                              if (!film_maker::is_rejected(pixel, index)) {
-                                  sum += static_cast<long double>(film_maker::value_of(pixel, index, channel));
-                                  ++accepted;
-                              }
-                          const auto mean = static_cast<float>(sum / accepted * 0x1p-63L); // 2^-60 / 2^3
-                          ASSERT_EQ(values[3 * i + channel], mean) << y << ' ' << i;
-                      }
-              });
-}
-
-TEST(Film, CoverageIsTheShareOfTheSamples) {
-    Samples samples;
-    give(samples, {0, 0, image_width, image_height}, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10});
-    give(samples, {3, 2, 7, 5}, {40, 41});
-    const pt::Film film(film_by_sample(samples, true));
-    EXPECT_TRUE(film.facts().has_coverage);
-    film.read(
-        film.bounds(), PT_QUANTITY_COVERAGE, [&](std::uint32_t x, std::uint32_t y, const std::vector<float> &values) {
-            for (std::uint32_t i = 0; i < values.size(); ++i) {
-                const film_maker::Pixel pixel{y, x + i / 3};
-                const std::set<std::uint32_t> &indices = samples.at(pixel);
-                const double share = 1.0 * film_maker::covered_of(pixel, indices) / static_cast<double>(indices.size());
-                ASSERT_EQ(values[i], static_cast<float>(share)) << y << ' ' << x << ' ' << i;
-            }
-        });
-    EXPECT_FALSE(pt::Film(film_by_sample(samples)).facts().has_coverage);
-}
-
-void seal(Bytes &bytes) {
-    const std::size_t checked = bytes.size() - sizeof(std::uint64_t);
-    const std::uint64_t checksum = pt::checksum(std::span(bytes).first(checked));
-    std::memcpy(&bytes[checked], &checksum, sizeof checksum);
-}
-
-TEST(Film, WhatDoesNotBelongChangesNothing) {
-    Samples samples;
-    give(samples, {0, 0, image_width, image_height}, {0, 1, 2});
-    pt::Film film(film_by_sample(samples));
-    const Bytes before = bytes_of(film);
-    const auto refusal = [&](const pt::FilmIdentity &identity, const Samples &other) {
-        const pt::Error error =
-            error_of([&] { film.add(pt::Film(film_maker::film_of(identity, film_maker::tiles_of(other), other))); });
-        EXPECT_EQ(error.code(), PT_ERROR_INCOMPATIBLE);
-        EXPECT_TRUE(bytes_of(film) == before) << error.what();
-        return std::string(error.what());
-    };
-    const pt::FilmIdentity same = film_maker::identity(image_width, image_height);
-    pt::FilmIdentity seed = same;
-    seed[5].value = "7";
-    Samples others;
-    give(others, {0, 0, image_width, image_height}, {3, 4});
-    EXPECT_EQ(refusal(film_maker::identity(image_width, image_height, true), others),
-              "film.coverage = 1: must be absent");
-    EXPECT_EQ(refusal(seed, others), "film.seed = 7: must be 18446744073709551615, as in the film that it is added to");
-    give(others, {8, 8, 4, 4}, {1});
-    EXPECT_EQ(refusal(same, others),
-              "film.samples = [1, 2), [3, 5) in the 4x4 pixels from (8, 8): [1, 2) are already in the film");
 }
 
 TEST(Film, WhatNoPictureHasIsRefused) {
@@ -235,7 +153,9 @@ TEST(Film, WhatNoPictureHasIsRefused) {
             film_maker::film_of(film_maker::identity(image_width, image_height, has_coverage), grid(8, 8), samples);
         const pt::Film film(unharmed);
         unharmed[unharmed.size() - 100] ^= std::byte{2}; // changes a count; the checksum stays valid
-        seal(unharmed);
+        const std::size_t checked = unharmed.size() - sizeof(std::uint64_t);
+        const std::uint64_t checksum = pt::checksum(std::span(unharmed).first(checked));
+        std::memcpy(&unharmed[checked], &checksum, sizeof checksum);
         EXPECT_EQ(error_of([&] { const pt::Film damaged(unharmed); }).what(),
                   std::string("film: its sums cannot come from its samples"));
     }

@@ -11,6 +11,7 @@
 struct ResolvedPart {
     pt::WideSum sums[3];
     std::uint32_t accepted;
+    std::uint32_t done = 100; // accepted and rejected
 };
 
 struct ResolvedPixel {
@@ -68,6 +69,12 @@ public:
         return pixel;
     }
 
+    std::vector<ResolvedPixel> pixels(std::size_t count) {
+        std::vector<ResolvedPixel> pixels(count);
+        std::ranges::generate(pixels, [&] { return pixel(); });
+        return pixels;
+    }
+
 private:
     std::mt19937_64 generator_{2026};
     std::uniform_int_distribution<int> kind_{0, 15};
@@ -78,11 +85,12 @@ inline pt::PixelSums film_of(const std::vector<ResolvedPixel> &pixels) {
     sums.resize(pixels.size());
     for (std::uint32_t part = 0; part < pt::gpu::FILM_PARTS; ++part)
         for (std::size_t i = 0; i < pixels.size(); ++i) {
+            const auto &[of_channels, accepted, done] = pixels[i].parts[part];
             for (std::size_t word = 0; word < 3 * pt::gpu::FILM_SUM_WORDS; ++word)
-                sums.plane(part, word)[i] = static_cast<std::uint32_t>(
-                    pixels[i].parts[part].sums[word / pt::gpu::FILM_SUM_WORDS] >> 32 * (word % 4));
-            sums.plane(part, pt::gpu::FILM_ACCEPTED)[i] = pixels[i].parts[part].accepted;
-            sums.plane(part, pt::gpu::FILM_REJECTED)[i] = 100 - pixels[i].parts[part].accepted;
+                sums.plane(part, word)[i] =
+                    static_cast<std::uint32_t>(of_channels[word / pt::gpu::FILM_SUM_WORDS] >> 32 * (word % 4));
+            sums.plane(part, pt::gpu::FILM_ACCEPTED)[i] = accepted;
+            sums.plane(part, pt::gpu::FILM_REJECTED)[i] = done - accepted;
         }
     return sums;
 }

@@ -3,15 +3,13 @@
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
-#include "tests/support/image_target.h"
 #include "tests/support/render_image.h"
 #include "tests/support/scene_of.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <cstdint>
 #include <vector>
 
 namespace {
@@ -23,24 +21,13 @@ using Image = std::vector<float>;
 
 class SplitIntoCalls : public ContextFixture {
 protected:
-    void set_up_coursework(pt_context *on, uint32_t max_path_length) {
-        set_coursework(on, render_of(width, height, max_path_length));
-    }
+    void set_up() { set_coursework(context(), render_of(width, height, 3)); }
 
     Image image_of(const std::vector<uint32_t> &calls) {
-        set_up_coursework(context(), 3);
+        set_up();
         for (const uint32_t samples : calls)
             accumulate(samples);
-        Image image(width * height * 3);
-        readback(image);
-        return image;
-    }
-
-    Image image_inside_a_lamp(float radiance, uint32_t samples) {
-        const pt_material material{{0, 0, 0}, {0, 0, 0}, {radiance, radiance, radiance}, 0, 0};
-        const pt_sphere sphere{{0, 0, 0}, 50, {0, 0, 0}, 0, 0};
-        const pt_scene scene = scene_of({&material, 1}, {&sphere, 1}, {});
-        return render_image(context(), scene, CourseworkScene::camera(), render_of(8, 8, 1), samples);
+        return values_of(context(), std::size_t{width} * height);
     }
 };
 
@@ -76,7 +63,7 @@ TEST_F(SplitIntoCalls, LongCallsHaveTheBitsOfShortOnes) {
 TEST_F(SplitIntoCalls, TheTargetErrorIsReachedAtTheFirstCheckThatSaysSo) {
     constexpr uint32_t most = 4096;
     constexpr double target = 0.07;
-    set_up_coursework(context(), 3);
+    set_up();
     pt_accumulate_info until_target = accumulate_info(most, target);
     until_target.sampling = PT_SAMPLING_UNIFORM;
     ASSERT_EQ(pt_accumulate(context(), &until_target), PT_TARGET_REACHED) << pt_last_error(context());
@@ -88,7 +75,7 @@ TEST_F(SplitIntoCalls, TheTargetErrorIsReachedAtTheFirstCheckThatSaysSo) {
     ASSERT_EQ(pt_accumulate(context(), &until_target), PT_TARGET_REACHED);
     EXPECT_EQ(stats().sample_count, reached.sample_count);
 
-    set_up_coursework(context(), 3);
+    set_up();
     uint64_t before = pt::next_check(0);
     while (pt::next_check(before) < reached.sample_count)
         before = pt::next_check(before);
@@ -96,65 +83,12 @@ TEST_F(SplitIntoCalls, TheTargetErrorIsReachedAtTheFirstCheckThatSaysSo) {
     EXPECT_GT(error().relative_rmse_high, target);
 }
 
-TEST_F(SplitIntoCalls, SamplesMayRunOutBeforeTheTargetErrorIsReached) {
-    set_up_coursework(context(), 3);
-    for (const double target : {1e-9, 1e9}) {
-        pt_accumulate_info info = accumulate_info(8, target);
-        info.sampling = PT_SAMPLING_UNIFORM;
-        ASSERT_EQ(pt_accumulate(context(), &info), PT_OK) << pt_last_error(context());
-    }
-    EXPECT_EQ(stats().sample_count, 16U);
-}
-
-// The expected value is |A - B| sqrt(a b) / n. A is the mean of the first a samples, where a is the largest power of
-// two below n. B is the mean of the other b samples. Calls end before, at, after and across the counts at which parts
-// are folded.
-TEST_F(SplitIntoCalls, StandardErrorsAreThoseOfTheFilmsParts) {
-    const auto standard_errors = [&] {
-        Image errors(width * height * 3);
-        const pt_image target = image_target(errors, PT_QUANTITY_STANDARD_ERROR);
-        EXPECT_EQ(pt_readback(context(), &target), PT_OK) << pt_last_error(context());
-        return errors;
-    };
-    const auto part_of = [&](uint32_t first, uint32_t count) {
-        set_up_coursework(context(), 3);
-        pt_render render = render_of(width, height, 3);
-        render.first_sample = first;
-        EXPECT_EQ(pt_set_render(context(), &render), PT_OK) << pt_last_error(context());
-        accumulate(count);
-        Image image(width * height * 3);
-        readback(image);
-        return image;
-    };
-    const auto deviation = [&](const Image &found, const Image &older, const Image &newer, double a, double b) {
-        double worst = 0.0;
-        for (std::size_t i = 0; i < found.size(); ++i) {
-            const double scale = std::sqrt(a * b) / (a + b);
-            const double expected = std::abs(double{older[i]} - double{newer[i]}) * scale;
-            const double rounding = 0x1p-24 * ((double{older[i]} + double{newer[i]}) * scale + double{found[i]});
-            worst = std::max(worst, std::abs(double{found[i]} - expected) / std::max(rounding, 1e-30));
-        }
-        return worst;
-    };
-    image_of({8});
-    EXPECT_EQ(standard_errors(), Image(width * height * 3, std::numeric_limits<float>::infinity()));
-    const struct {
-        std::vector<uint32_t> calls;
-        uint32_t older, newer;
-    } cases[] = {{{9}, 8, 1}, {{5, 11}, 8, 8}, {{16, 1}, 16, 1}, {{40}, 32, 8}, {{1, 15, 16, 32}, 32, 32}};
-    for (const auto &[calls, older, newer] : cases) {
-        image_of(calls);
-        const Image found = standard_errors();
-        const Image first = part_of(0, older);
-        const Image last = part_of(older, newer);
-        EXPECT_LE(deviation(found, first, last, older, newer), 1.01) << older << " and " << newer;
-        EXPECT_GT(deviation(found, part_of(0, older - 1), last, older, newer), 1e3) << older << " and " << newer;
-    }
-}
-
 // Every sample is float32(0.1). Some drivers stop loops after 65,535 rounds.
 TEST_F(SplitIntoCalls, NoSampleIsLostInLongRuns) {
-    const Image image = image_inside_a_lamp(0.1F, 1U << 20);
+    const pt_material material{{0, 0, 0}, {0, 0, 0}, {0.1F, 0.1F, 0.1F}, 0, 0};
+    const pt_sphere around{{0, 0, 0}, 50, {0, 0, 0}, 0, 0};
+    const pt_scene scene = scene_of({&material, 1}, {&around, 1}, {});
+    const Image image = render_image(context(), scene, CourseworkScene::camera(), render_of(8, 8, 1), 1U << 20);
     EXPECT_EQ(image, Image(image.size(), 0.1F));
     EXPECT_EQ(stats().sample_count, 1U << 20);
 }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <random>
 #include <set>
@@ -72,22 +73,21 @@ TEST(SampleSet, ReachesToTheLastIndex) {
     EXPECT_EQ(pt::text_of(set), "[0, 7), [8, 4294967296)");
 }
 
-constexpr TileGrid small_grid{21, 10};
-
-TEST(TileGrid, EdgesHaveSmallerTiles) {
-    EXPECT_EQ(small_grid.columns(), 3U);
-    EXPECT_EQ(small_grid.count(), 6U);
-    EXPECT_EQ(small_grid.pixels(0), (pt::Rectangle{0, 0, 8, 8}));
-    EXPECT_EQ(small_grid.pixels(5), (pt::Rectangle{16, 8, 5, 2}));
-    std::uint64_t pixels = 0;
-    for (std::size_t tile = 0; tile < small_grid.count(); ++tile) {
-        const pt::Rectangle at = small_grid.pixels(tile);
-        EXPECT_EQ(small_grid.tile_at(at.x, at.y), tile);
-        EXPECT_EQ(small_grid.tile_at(at.x + at.width - 1, at.y + at.height - 1), tile);
-        pixels += at.pixel_count();
-    }
-    EXPECT_EQ(pixels, 210U);
+std::uint64_t split_by_definition(const SampleRange &hull) {
+    std::uint64_t best = 0;
+    for (std::uint64_t index = hull.first + 1; index < hull.end; ++index)
+        if (index % 8 == 0 && (best == 0 || std::countr_zero(index) > std::countr_zero(best)))
+            best = index;
+    return best > 0 ? best : (hull.end + 7) / 8 * 8;
 }
+
+TEST(SampleSet, ItsSplitHasTheMostZerosAtItsEnd) {
+    for (std::uint64_t first = 0; first < 150; ++first)
+        for (std::uint64_t end = first + 1; end < 300; ++end)
+            ASSERT_EQ(pt::split_of({first, end}), split_by_definition({first, end})) << first << ", " << end;
+}
+
+constexpr TileGrid small_grid{21, 10};
 
 TEST(TileSamples, AreThoseThatWereAddedToEach) {
     std::mt19937 generator(18);

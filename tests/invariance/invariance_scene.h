@@ -8,14 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <string>
 #include <vector>
-
-enum class InvarianceOf { Coursework, ManyLamps, Tree };
-
-inline std::string name_of(InvarianceOf what) {
-    return what == InvarianceOf::Coursework ? "Coursework" : what == InvarianceOf::ManyLamps ? "ManyLamps" : "Tree";
-}
 
 struct InvarianceScene {
     std::vector<pt_material> materials;
@@ -32,18 +25,6 @@ struct InvarianceScene {
                                {source.spheres.begin(), source.spheres.end()},
                                {source.planes.begin(), source.planes.end()}};
         result.spheres[3].motion[1] = 0.5;
-        return result;
-    }
-
-    static InvarianceScene of(InvarianceOf what) {
-        return what == InvarianceOf::Coursework ? coursework() : many_lamps();
-    }
-
-    static InvarianceScene many_lamps() {
-        InvarianceScene result = coursework();
-        for (int i = 0; i < 6; ++i)
-            result.spheres.push_back(
-                {{3.0 * i - 8.0, 5.5, -10.5 + i}, 0.25, {0, 0, 0}, static_cast<uint32_t>(i % 2), 0});
         return result;
     }
 
