@@ -18,7 +18,6 @@ from pt.view import View
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests" / "support"))
 from chromium import PROGRAM as BROWSER, Chromium
-from exr import read_exr_channels
 from png import parse_png
 
 PROGRAM = str(pathlib.Path(sys.argv.pop(1)).resolve())
