@@ -76,7 +76,7 @@ class Neighbours(unittest.TestCase):
         """Compares with the distances to all periodic images. Cells are thinner than the cutoff, particles lie far
         outside, and one edge may not be periodic."""
         random = np.random.default_rng(7)
-        self.enterContext(unittest.mock.patch.object(_neighbours, "COMPARED_AT_ONCE", 7))
+        self.enterContext(unittest.mock.patch.object(_neighbours, "COMPARED_AT_ONCE", 999))
         for vectors, periodic, cutoff in (([[4, 0, 0], [1, 5, 0], [-1, 0.5, 6]], True, 1.3),
                                           ([[2, 0, 0], [1.2, 2, 0], [0.3, -0.8, 2]], True, 2.9),
                                           ([[4, 0, 0], [1, 5, 0], [-1, 0.5, 6]], (True, False, True), 1.7)):
