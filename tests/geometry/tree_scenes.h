@@ -5,7 +5,6 @@
 
 #include <pt/pt.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
