@@ -50,8 +50,10 @@ public:
     explicit RandomPicture(std::uint32_t seed) : seed_(seed), engine_(seed) {}
 
     Picture made() {
-        Picture picture{static_cast<Kind>(seed_ % kind_count), (seed_ + seed_ / kind_count) % 2 == 1, {}, {}, {}};
-        picture.render = picture_of(seed_ / kind_count % 4);
+        const std::uint32_t kind = seed_ % kind_count;
+        const std::uint32_t round = seed_ / kind_count;
+        Picture picture{static_cast<Kind>(kind), (kind + round) % 2 == 1, {}, {}, {}};
+        picture.render = picture_of(round % 4);
         picture.render.max_path_length = picture.kind == spots ? 3 + seed_ % 3 : 2 + whole(3);
         Given &given = picture.given;
         set_materials(given, picture.kind);
