@@ -12,13 +12,13 @@
 namespace cli {
 namespace {
 
-constexpr std::uint32_t side = 64;
-constexpr std::uint32_t samples = 64;
+constexpr std::uint32_t picture_side = 64;
+constexpr std::uint32_t pixel_samples = 64;
 
 // Two bounds away from 1, the value of random numbers. A quotient of two variances over normally distributed pixels has
-// the standard deviation 2 / side. For functions with edges, Halton's variance falls more slowly than 1 / N^3.
-constexpr double apart = 1.0 + 2.0 * standard_errors * 2.0 / side;
-constexpr Range better_than_random{1.0 / (samples * samples), 1.0 / apart};
+// the standard deviation 2 / picture_side. For functions with edges, Halton's variance falls more slowly than 1 / N^3.
+constexpr double apart = 1.0 + 2.0 * standard_errors * 2.0 / picture_side;
+constexpr Range better_than_random{1.0 / (pixel_samples * pixel_samples), 1.0 / apart};
 constexpr Range no_worse_than_random{better_than_random.least, 1.0};
 
 using Numbers = std::vector<double>;
@@ -45,14 +45,14 @@ double pairs(const std::vector<Element> &elements, const Alike &alike) {
 }
 
 Picture sampled(CourseKernels &kernels, std::uint32_t sampler) {
-    SceneFile scene = lamps_above_a_floor(side, samples);
+    SceneFile scene = lamps_above_a_floor(picture_side, pixel_samples);
     scene.render.sampler = sampler;
     return kernels.edited(scene);
 }
 
 Measured variance(CourseKernels &kernels, const char *sampler, const Picture &picture) {
-    return relative_variance(concat("variance x samples, ", sampler), picture, samples,
-                             kernels.edited(lamps_above_a_floor(2 * side, 1)));
+    return relative_variance(concat("variance x samples, ", sampler), picture, pixel_samples,
+                             kernels.edited(lamps_above_a_floor(2 * picture_side, 1)));
 }
 
 } // namespace
@@ -127,7 +127,7 @@ std::vector<Pattern> number_patterns() {
         variances("pixel shift missing", "Add a random number of the pixel and the dimension, modulo 1.", any_value,
                   exactly(0.0)),
         variances("integer division", "1 / base is 0 for integers, so all samples of a pixel have the same numbers.",
-                  any_value, exactly(samples)),
+                  any_value, exactly(pixel_samples)),
         dimensions("equal numbers in all dimensions", "Each number of a sample needs its own base.",
                    {some, any_value, any_value, any_value, any_value}),
         dimensions("bases with a common factor", "Bases must be primes: 2, 3, 5, 7, 11 and so on.",

@@ -100,7 +100,7 @@ BinCut best_cut(const Part &part, const Bins &bins) {
 } // namespace
 
 // The loop has no branches, because they would be mispredicted.
-Halves binned_halves(const Part &part) {
+PartHalves binned_halves(const Part &part) {
     const Bins bins(part);
     const BinCut cut = best_cut(part, bins);
     std::size_t count = 0;
@@ -116,7 +116,7 @@ Halves binned_halves(const Part &part) {
 }
 
 // Sorts by counting, because branches would be mispredicted.
-Halves swept_halves(const Part &part) {
+PartHalves swept_halves(const Part &part) {
     const std::size_t count = part.items.size();
     std::array<TreeItem, most_swept> best_items{};
     std::size_t best_count = 0;

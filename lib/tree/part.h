@@ -98,7 +98,7 @@ struct Part {
     bool has_no_twins = false;
 };
 
-struct Halves {
+struct PartHalves {
     Part first;
     Part second;
 };

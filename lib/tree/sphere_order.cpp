@@ -18,17 +18,17 @@ Part part_of(Items items) {
     return {items, centers_of(items), balls_of(items).surface()};
 }
 
-Halves halved(const Part &part) {
+PartHalves halved(const Part &part) {
     const std::size_t axis = part.centers.longest_axis();
     const auto order = [axis](const TreeItem &item) { return std::tuple(item.center_radius[axis], item.sphere); };
     const std::size_t half = part.items.size() / 2;
     std::ranges::nth_element(part.items, part.items.begin() + static_cast<std::ptrdiff_t>(half), {}, order);
-    Halves halves{part_of(part.items.first(half)), part_of(part.items.subspan(half))};
+    PartHalves halves{part_of(part.items.first(half)), part_of(part.items.subspan(half))};
     halves.first.has_no_twins = halves.second.has_no_twins = part.has_no_twins;
     return halves;
 }
 
-Halves divided(const Part &part, std::uint32_t depth) {
+PartHalves divided(const Part &part, std::uint32_t depth) {
     if (depth >= free_depth || part.centers.is_point())
         return halved(part);
     return part.items.size() <= most_swept ? swept_halves(part) : binned_halves(part);

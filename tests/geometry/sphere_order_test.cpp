@@ -172,7 +172,7 @@ TEST(TreeCuts, OfFewSpheresAreTheBest) {
         const pt::Part part = part_of(items);
         if (part.centers.is_point())
             continue;
-        const pt::Halves halves = pt::swept_halves(part);
+        const pt::PartHalves halves = pt::swept_halves(part);
         expect_boxes(halves.first);
         expect_boxes(halves.second);
         // The chosen cut and the best one have at most four nodes each.
@@ -199,7 +199,7 @@ TEST(TreeCuts, OfManySpheresAreAboutTheBest) {
                 return ball;
             });
             Items items = before;
-            const pt::Halves halves = pt::binned_halves(part_of(items));
+            const pt::PartHalves halves = pt::binned_halves(part_of(items));
             expect_boxes(halves.first);
             expect_boxes(halves.second);
             EXPECT_LT(halves.first.centers.high[longest], halves.second.centers.low[longest]);
