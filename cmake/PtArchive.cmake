@@ -20,7 +20,8 @@ function(pt_add_archive target name objects)
   add_library(${target} STATIC ${object})
   set_target_properties(${target} PROPERTIES OUTPUT_NAME ${name} LINKER_LANGUAGE CXX)
   target_link_libraries(${target} INTERFACE ${pt_cxx_runtime})
-  if(NOT CMAKE_SYSTEM_NAME STREQUAL "Linux") # whose linker makes that object
+  # Linux's linker makes that object. Nothing tests a sanitized one.
+  if(PT_SANITIZE OR NOT CMAKE_SYSTEM_NAME STREQUAL "Linux")
     set_target_properties(${target} PROPERTIES EXCLUDE_FROM_ALL ON)
   endif()
 endfunction()

@@ -2,6 +2,9 @@
 # goes into headers. For what is built once; who changes sources builds without. Names in anonymous namespaces must differ
 # within a file.
 option(PT_UNITY "Compile the sources of the library, the program and the tests as few files" OFF)
+if(PT_UNITY)
+  set(CMAKE_DISABLE_PRECOMPILE_HEADERS ON) # few files would read what takes longer to write than to parse
+endif()
 # GCC looks for garbage in hundreds of megabytes of headers each time that a file has added a little: a tenth of its time.
 if(PT_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT CMAKE_CXX_CLANG_TIDY)
   add_compile_options(--param=ggc-min-heapsize=1000000) # KB

@@ -9,6 +9,7 @@
 #include "tests/support/shared_context.h"
 #include "tests/support/sized.h"
 
+#include <pt/accuracy.h>
 #include <pt/async.h>
 #include <pt/film.h>
 #include <pt/map.h>
