@@ -24,10 +24,13 @@ if(NOT CMAKE_BUILD_TYPE AND NOT pt_is_multi_config AND NOT CMAKE_CXX_FLAGS MATCH
 endif()
 if(PT_SANITIZE)
   target_compile_options(pt_warnings INTERFACE -fsanitize=${PT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
-  # In the tests' own code, not in what they test, without three checks of every access, which take the compiler a fifth of
-  # its time and make the objects more than twice as large.
+  # In the code of tests and of targets with PT_FEW_CHECKS, without three checks of every access, which take the compiler a
+  # fifth of its time and make the objects more than twice as large.
   foreach(check null alignment vptr)
-    target_compile_options(pt_warnings INTERFACE $<${pt_in_batches}:-fno-sanitize=${check}>)
+    target_compile_options(
+      pt_warnings
+      INTERFACE $<$<OR:${pt_in_batches},$<BOOL:$<TARGET_PROPERTY:PT_FEW_CHECKS>>>:-fno-sanitize=${check}>
+    )
   endforeach()
   target_link_options(pt_warnings INTERFACE -fsanitize=${PT_SANITIZE})
 endif()
