@@ -42,7 +42,7 @@ install_modules() {
 
 build() { # preset, whether with tests [cmake --build arguments]
     preset=$1
-    # In one build, a file for each folder takes a quarter of the compiler's time.
+    # Few files compile in less time than many.
     cmake --preset "$preset" -DPT_BUILD_TESTS="$2" -DPT_UNITY=ON || return
     shift 2
     cmake --build --preset "$preset" "$@"
