@@ -5,7 +5,7 @@
 
 namespace faults {
 
-// Marks this thread's allocations as the library's, or as those of Vulkan or callbacks, which do not fail.
+// Marks this thread's allocations as the library's. Allocations of Vulkan and of callbacks do not fail.
 class InLibrary {
 public:
     explicit InLibrary(bool is_in = true);

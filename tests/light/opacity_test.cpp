@@ -173,7 +173,7 @@ TEST_F(Opacity, OfOneSurfaceIsEvenlySpreadOverRaysOfCamerasAndShadows) {
     }
 }
 
-// Every 16 samples have another lattice, so the mean square over 6,144 pixels falls like that of independent samples.
+// Every 16 samples have another lattice, so the mean square over 6,144 pixels falls as with independent samples.
 // With one lattice for all pixels it falls faster. The stated error may be a tenth too small.
 TEST_F(Opacity, OfTwoSurfacesHasManyLattices) {
     Given given = under_sky({ball_at({0, 0, 2}, 1.0, 0.4F), ball_at({0, 0, -2}, 1.0, 0.4F)});
