@@ -132,12 +132,13 @@ class Outputs(CommandLineTest):
 
     def test_files_that_cannot_be_written_are_found_before_rendering(self):
         os.mkdir(self.path("folder.png"))
-        for name in ("folder.png", "/proc/a.png"):
+        os.mkfifo(self.path("pipe.png"))
+        for name in ("folder.png", "pipe.png", "/proc/a.png"):
             with self.subTest(name=name):
                 for arguments in (["-o", name], *(["-o", "good.exr", option, name] for option in ("-o", "--stats", "--film"))):
                     self.expect(6, "render", COURSEWORK, *arguments, error="cannot write " + name,
                                 FAKE_PT_FAIL=f"accumulate:{RESULT['INTERNAL']}")
-        self.assertEqual(self.files(), ["folder.png"])
+        self.assertEqual(self.files(), ["folder.png", "pipe.png"])
 
     def test_a_failed_write_leaves_the_old_file_and_the_others_are_written(self):
         self.write("big.exr", "old")

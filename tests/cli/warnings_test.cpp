@@ -79,6 +79,17 @@ TEST(Warnings, BlackPictures) {
     EXPECT_EQ(image_warnings(report, radiance), Texts());
 }
 
+TEST(Warnings, SamplesLeftOutAreAShareOfTheRenderedPart) {
+    cli::RenderReport report{};
+    report.render.width = 1;
+    report.render.height = 4;
+    report.window = {{0, 1, 1, 2}, 1, 4};
+    report.stats.sample_count = 8;
+    report.stats.rejected_samples = 4;
+    EXPECT_EQ(image_warnings(report, std::vector<float>(6, 0.18F)),
+              Texts{"4 samples (25%) were left out: not finite, negative or too bright"});
+}
+
 TEST(Warnings, PicturesThatAreDarkerThanTheErrorTells) {
     cli::RenderReport report{};
     std::vector<float> radiance(300, 0.18F * 0x1p-12F);

@@ -22,7 +22,7 @@ except ImportError:
 from pt import farm
 from pt.farm import _coordinator, _task
 from pt.farm._crew import LOOK_SECONDS, MOST_FAILURES
-from pt.farm._part import Part
+from pt.farm._part import Part, has_only
 from pt.farm._sum import Sum, write_film
 from pictures import CAMERA, SCENE, ready, settings
 
@@ -228,6 +228,11 @@ class Farm(unittest.TestCase):
         seen = []
         self.farm(options=self.keeping, progress=lambda now, film: seen.append((now.samples, now.samples_wanted)))
         self.assertEqual(set(seen), {(SAMPLES, SAMPLES)})
+
+    def test_samples_of_a_film_begin_with_the_first(self):
+        cells = [((range(5, 13),), np.arange(2, dtype=np.uint32))]
+        for first, expected in (4, False), (5, True):
+            self.assertEqual(has_only(cells, first, np.full(2, 8, np.uint32)), expected)
 
     def test_tiles_that_are_ahead_and_a_full_disk(self):
         calls = []

@@ -107,6 +107,8 @@ class Neighbours(unittest.TestCase):
         found = found_in(particles, [[0, 1], [0, 2]])
         np.testing.assert_allclose(found.ways[:, 0], (-0.5, 2.25, 0.5, -2.25))
         self.assertEqual(found_in(particles, [[0, 1], [0, 2]], "none").others.tolist(), [2, 0])
+        particles.cell = Cell.of([10, 10, 10], periodic=False)
+        np.testing.assert_allclose(found_in(particles, [[0, 1]]).ways[:, 0], (4.5, -4.5))
 
     def test_molecules_are_made_whole(self):
         """Helices of 30 atoms span several cells. Each keeps the place of its first atom."""

@@ -66,6 +66,11 @@ TEST(HiddenSurfaces, WithPathsOnBothSidesAreMetFromBoth) {
     const pt::Features through = features_of({sphere(-5, 1, Dark), sphere(-5, 2, Dark)}, {{{0, 0, 1}, 2, HiddenDark}});
     EXPECT_TRUE(through[pt::gpu::ID_PLANES_BLOCK]);
     EXPECT_FALSE(through[pt::gpu::ID_KNOWN_SIDES]);
+    const auto leaving = [](double way) {
+        return features_of({{{0, 0, -5}, 3, {0, 0, way}, Dark}, sphere(-5, 1, HiddenDark)});
+    };
+    EXPECT_FALSE(leaving(-1)[pt::gpu::ID_INSIDE]);
+    EXPECT_TRUE(leaving(-6)[pt::gpu::ID_INSIDE]) << "within the ball at first";
     const auto in_a_room = [](Kind wall) { return features_of({sphere(0, 50, Dark)}, {{{0, 0, 1}, 2, wall}}); };
     EXPECT_TRUE(in_a_room(Dark)[pt::gpu::ID_KNOWN_SIDES]);
     EXPECT_FALSE(in_a_room(HiddenDark)[pt::gpu::ID_KNOWN_SIDES]);

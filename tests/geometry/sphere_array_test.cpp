@@ -176,6 +176,16 @@ TEST(Srgb, IsDecodedAsTheStandardSays) {
     }
 }
 
+TEST(SphereSource, KnowsOpacitiesThatLetRaysPass) {
+    const std::vector<float> center(9);
+    const float radius = 0.5F;
+    for (const float opacity : {0.998F, 0.9981F}) {
+        pt_sphere_array array = array_of(3, {center.data(), 12, PT_TYPE_FLOAT32}, {&radius, 0, PT_TYPE_FLOAT32});
+        array.opacity = {&opacity, 0, PT_TYPE_FLOAT32};
+        EXPECT_EQ(pt::SphereSource({}, {&array, 1}).counts().has_opacities, opacity < 1.0F - 0.5F / 255.0F);
+    }
+}
+
 TEST(SphereSource, ReadsInOrderAcrossArrays) {
     std::vector<float> center(3 * 1003);
     std::vector<float> color(3 * 1003);

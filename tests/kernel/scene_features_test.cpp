@@ -189,6 +189,13 @@ TEST(FeatureKnownSides, IsWhetherTheCameraTellsThemAndMust) {
                     {"the camera is on the huge ball", {ball_at({0, -1e6, 0}, 1e6)}, {floor_at(-1)}}});
 }
 
+TEST(FeatureCurvature, IsWhetherASphereIsNearlyFlat) {
+    expect_feature(pt::gpu::ID_CURVATURE, 0,
+                   {{"ball", {ball_at({0, -32, 0}, 31)}}, {"lamp", {lamp_at({0, -65536, 0}, 65535)}}});
+    expect_feature(pt::gpu::ID_CURVATURE, 1,
+                   {{"ball", {ball_at({0, -34, 0}, 33)}}, {"lamp", {lamp_at({0, -65538, 0}, 65537)}}});
+}
+
 TEST(FeatureMotion, IsWhetherAHugeBallMovesWhileTheShutterIsOpen) {
     const pt::Sphere moving = ball_at({0, -1e6 - 1, 0}, 1e6, {1e-9, 0, 0});
     expect_feature(pt::gpu::ID_MOTION, 0, {{"at rest", {huge_ball}}, {"a moment", {moving}, {}, {0.5, 0.5}}});

@@ -1,3 +1,4 @@
+#include "lib/film/error_estimate.h"
 #include "lib/render/missed_lamps.h"
 #include "lib/scene/camera.h"
 #include "lib/scene/checked_scene.h"
@@ -202,9 +203,30 @@ TEST(SmallLamps, AddWhatSamplesShouldHaveMet) {
 
 // The limit is .01: .01^2 / (.01^2 + .01) < .01.
 TEST(SmallLamps, CountAgainstATargetIfTheirLackShows) {
-    for (const float light : {10.0F, 11.0F})
-        EXPECT_EQ(pt::samples_to_hit({0, 0, 1e-3, 2e-3, glm::dvec3(0, 0, light)}, 0.01, true),
-                  light > 10.0F ? 4000U : 0U);
+    for (const bool is_random : {false, true})
+        for (const bool is_spread : {false, true})
+            for (const float light : {10.0F, 11.0F}) {
+                const pt::LampPiece piece{0, 0, 1e-3, 2e-3, glm::dvec3(0, 0, light), 1.0, is_spread};
+                EXPECT_EQ(pt::samples_to_hit(piece, 0.01, is_random), light < 11.0F            ? 0U
+                                                                      : is_random || is_spread ? 4000U
+                                                                                               : 1500U);
+            }
+}
+
+// 12 or 2 hits are expected. The error of the samples is less than the lamps' error, up to twice as large, or larger.
+TEST(SmallLamps, LeaveTheErrorUncertainIfTheyAreHardlyHit) {
+    for (const double hits : {12.0, 2.0})
+        for (const double shown : {0.1, 5.0, 12.0}) {
+            pt::ErrorEstimate error{{shown, shown, shown}, {shown, shown, shown}, 0};
+            const pt::ExpectedSquares squares{12.0, 144.0 / hits};
+            pt::take_in_unmet_lamps(error, {squares, squares}, 3.0);
+            const double root = 2.0 * (1.0 + pt::share_added(hits));
+            const bool is_uncertain = shown < 2.0 * root && hits < 10.0;
+            const double bound = root * pt::spread_of_pixels(hits) * (is_uncertain ? 2.0 : 1.0);
+            EXPECT_DOUBLE_EQ(error.relative_rmse.estimate, std::hypot(shown, root));
+            EXPECT_DOUBLE_EQ(error.rmse.high, std::hypot(shown, bound));
+            EXPECT_EQ(error.uncertain, is_uncertain ? unsigned{PT_UNCERTAIN_UNMET} : 0U);
+        }
 }
 
 // Simulates the variance of the number of points in a disc of a few cells. Each cell has one random point.

@@ -95,6 +95,7 @@ class Columns(unittest.TestCase):
         for error, words, arguments, *colors in (
                 (ValueError, rf"center.shape = \({COUNT},\): must be \(n, 3\)", (RADII, RADII, 0)),
                 (ValueError, rf"radius.shape = \({COUNT - 1},\): must be \({COUNT},\) or \(\)", (POSITIONS, RADII[1:], 0)),
+                (ValueError, "indices of materials", (POSITIONS, RADII, -1)),
                 (ValueError, "indices of materials", (POSITIONS, RADII, 2**32)),
                 (TypeError, "must be of real numbers", (POSITIONS.astype(complex), RADII, 0)),
                 (TypeError, "must be of real numbers", (POSITIONS > 0, RADII, 0)),

@@ -219,5 +219,7 @@ class Interrupts(unittest.TestCase):
                 raise LookupError
 
         self.assertIs(self.context.accumulate(1, progress=lambda _: Failing() and None), pt.Result.OK)
-        sys.unraisablehook = hook
         self.assertEqual(set(told), {LookupError})
+        self.context.accumulate(1, progress=lambda _: setattr(sys, "unraisablehook", told.append))
+        self.assertEqual(sys.unraisablehook, told.append, "a hook that is set meanwhile stays")
+        sys.unraisablehook = hook

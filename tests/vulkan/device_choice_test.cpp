@@ -1,4 +1,5 @@
 #include "lib/vulkan/caller_vulkan.h"
+#include "lib/vulkan/device.h"
 #include "lib/vulkan/device_choice.h"
 #include "lib/vulkan/memory_type.h"
 
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -48,6 +50,15 @@ TEST(DeviceChoiceTest, TheBestIsTheFirstOfTheBestKind) {
         devices[expected] = unsuitable(devices[expected], "removed");
     }
     EXPECT_EQ(error_of([&] { pt::vulkan::choose_device(devices, ""); }).code(), PT_ERROR_NO_DEVICE);
+}
+
+TEST(DeviceChoiceTest, GpusAreWaitedForInBoundedTime) {
+    for (const pt_device_info &device : workstation) {
+        const bool is_cpu = device.kind == PT_DEVICE_CPU;
+        const pt::vulkan::DevicePolicy policy = pt::vulkan::default_policy(device);
+        EXPECT_EQ(policy.patience, is_cpu ? std::chrono::nanoseconds::max() : std::chrono::seconds{10}) << device.name;
+        EXPECT_EQ(policy.scene_in_constants, is_cpu) << device.name;
+    }
 }
 
 TEST(DeviceChoiceTest, AnIndexAKindAUuidOrAPartOfANameChoosesOne) {
