@@ -155,13 +155,6 @@ TEST_F(AdaptiveTest, TheMostSamplesAreThoseOfAPixel) {
     EXPECT_EQ(film_of(context()), expected);
 }
 
-TEST_F(AdaptiveTest, WithoutTheTargetAllPixelsTakeTheLimit) {
-    begin(context());
-    ASSERT_EQ(take(context(), 50, 1e-4), PT_OK);
-    EXPECT_EQ(stats().sample_count, 50U);
-    EXPECT_EQ(stats().max_sample_count, 50U);
-}
-
 TEST_F(AdaptiveTest, WithoutATargetAllPixelsTakeAsManyMore) {
     film_on_target(context());
     const Values before = values(context(), PT_QUANTITY_SAMPLE_COUNT);

@@ -159,23 +159,20 @@ TEST_F(Resolve, SamplesLostOnTheWayToABufferAreAnError) {
 TEST_F(Resolve, LostSamplesAreAnError) {
     constexpr std::uint32_t high = 1200;
     pt::DeviceFilm film(device(), width, high, 500'000);
-    const std::vector<ResolvedPixel> pixels(std::size_t{width} * high, ResolvedPixel{{{{}, 100}, {{}, 100}}});
-    pt::PixelSums sums = film_of(pixels);
-    const auto read_sums = [&] {
+    const pt::PixelSums whole = film_of(std::vector(std::size_t{width} * high, ResolvedPixel{{{{}, 100}, {{}, 100}}}));
+    pt::PixelSums damaged = whole;
+    damaged.plane(1, pt::gpu::FILM_ACCEPTED)[5] = 99;
+    damaged.plane(0, pt::gpu::FILM_REJECTED)[99'999] = 1;
+    const auto read_sums = [&](const pt::PixelSums &sums) {
         fill(device(), film, sums);
         read(film, {{0, 0, width, high}, PT_QUANTITY_RADIANCE, 1.0, parts_of_100});
     };
-    read_sums();
-    const pt::PixelSums whole = sums;
-    sums.plane(1, pt::gpu::FILM_ACCEPTED)[5] = 99;
-    sums.plane(0, pt::gpu::FILM_REJECTED)[99'999] = 1;
     for (int again = 0; again < 3; ++again) {
-        const pt::Error error = error_of(read_sums);
+        read_sums(whole);
+        const pt::Error error = error_of([&] { read_sums(damaged); });
         EXPECT_EQ(error.code(), PT_ERROR_INTERNAL);
         EXPECT_STREQ(error.what(), "the driver lost samples of 2 pixels");
     }
-    sums = whole;
-    read_sums();
 }
 
 } // namespace

@@ -64,9 +64,7 @@ TEST(SampleSet, IsTheSetOfItsIndices) {
 }
 
 TEST(SampleSet, ReachesToTheLastIndex) {
-    const SampleSet all({0, pt::sample_index_end});
-    EXPECT_EQ(all.count(), std::uint64_t{1} << 32);
-    EXPECT_TRUE(all.next_missing(5).empty());
+    EXPECT_EQ(SampleSet({0, pt::sample_index_end}).count(), std::uint64_t{1} << 32);
     SampleSet set({0, 7});
     set.add({8, pt::sample_index_end});
     EXPECT_EQ(set.next_missing(0), (SampleRange{7, 8}));

@@ -9,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -81,17 +80,6 @@ TEST_F(UnknownError, WhileSamplesHardlyMeetALampInView) {
         EXPECT_EQ(after(16) & unmet, in_view ? unmet : 0U);
         EXPECT_EQ(after(240) & unmet, 0U);
     }
-}
-
-// A lamp that covers 2.5e-9 of all directions is never hit. Both parts are black and agree, although the light is
-// unknown.
-TEST_F(UnknownError, NothingIsKnownOfAPictureThatIsBlackByChance) {
-    set_up(0.01, PT_ESTIMATOR_BSDF);
-    EXPECT_EQ(after(16), unmet);
-    EXPECT_EQ(error().relative_rmse_high, std::numeric_limits<double>::infinity());
-    set_up(0.01, PT_ESTIMATOR_MIS);
-    EXPECT_EQ(after(16) & unmet, 0U);
-    EXPECT_TRUE(std::isfinite(error().relative_rmse_high));
 }
 
 TEST_F(UnknownError, NoTargetIsReachedBeforeALampInViewIsMet) {
