@@ -220,7 +220,7 @@ public:
     std::vector<std::uint64_t> samples_for_lamps() const {
         std::vector<std::uint64_t> needed(plan_grid.count());
         for (std::size_t tile = seed_ % 5; tile < needed.size(); tile += 11)
-            needed[tile] = std::uint64_t{100} << seed_;
+            needed[tile] = std::uint64_t{100} << 2 * seed_;
         return needed;
     }
 
