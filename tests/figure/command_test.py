@@ -145,6 +145,7 @@ class Command(unittest.TestCase):
                 (2, "JPEG has no alpha", ("water.xyz", "-o", "a.jpg", "--background", "transparent")),
                 (2, "a series needs # signs", ("water.xyz", "-o", "a.png", "--turntable", "4")),
                 (2, "not with --frames", ("water.xyz", "-o", "a#.png", "--turntable", "4", "--frames", "0-1")),
+                (2, "must be LO,HI", ("water.xyz", "-o", "a.png", "--color-range", "3")),
                 (2, "standard input cannot be read twice", ("-", "-o", "a#.png", "--frames", "0-1")),
                 (2, "spp.: must be N|samples = 0: must be at least 1", ("water.xyz", "-o", "a.png", "--spp", "0")),
                 (3, "bad.xyz", ("bad.xyz", "-o", "a.png")),

@@ -177,7 +177,7 @@ class Files(readers_test.InAFolder):
         np.save(buffer, PLACES)
         rows = "".join(f"{x} {y} {z}\n" for x, y, z in PLACES).encode()
         for data in (buffer.getvalue(), gzip.compress(rows), b"x,y,z\n" + rows.replace(b" ", b","),
-                     b"3\nProperties=pos:R:3\n" + rows + b"3\nProperties=pos:R:3\n" + rows[::-1]):
+                     b"3\n\n" + rows + b"3\nProperties=pos:R:3\n" + rows[::-1]):
             with given(data):
                 np.testing.assert_array_equal(load("-", frame=0).positions, PLACES)
         with given(b"LASF"), self.assertRaisesRegex(DataError, "standard input: laspy reads files: standard input must be one of"):

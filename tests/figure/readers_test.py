@@ -17,7 +17,6 @@ from pt.figures._errors import DataError
 from pt.figures.readers import _rows
 
 DATA = pathlib.Path(__file__).resolve().parents[2] / "tests/data/particles"
-HAS_PANDAS = importlib.util.find_spec("pandas") is not None
 
 DUMP = ("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS pp ff pp\n0 1\n0 2\n0 4\n"
         "ITEM: ATOMS id type x y z\n1 1 0.5 1 2\n2 2 0.25 1e-1 +3\n")
@@ -124,7 +123,7 @@ class Frames(InAFolder):
 
 
 class Rows(InAFolder):
-    @unittest.skipUnless(HAS_PANDAS, "pandas is not installed")
+    @unittest.skipUnless(importlib.util.find_spec("pandas"), "pandas is not installed")
     def test_pandas_reads_what_is_read_one_by_one(self):
         generator = np.random.default_rng(1)
         numbers = [f"{x:.17g}" for x in generator.normal(size=600) * 10.0**generator.integers(-20, 20, 600)]
@@ -158,6 +157,7 @@ class Rows(InAFolder):
                     gzip.compress(text[99991:]):
                 found = self.read(name, data)
                 np.testing.assert_array_equal(np.column_stack([found.positions, found.column("v")]), rows)
+        self.assertIn("column t is taken for words: 'b' in line 3 is no number", self.read("a.csv", "x,y,z,t\n0,0,0,1\n1,0,0,b\n").notes)
 
 
 class Users(unittest.TestCase):
@@ -252,6 +252,7 @@ class Messages(InAFolder):
                 ("a.ply", PLY.format("binary_little_endian 1.0") + "1" * 23,
                  "a.ply:7: the file ends after 1 of 2 records of 12 bytes: it was cut short"),
                 ("a.ply", PLY.format("ebcdic 1.0"), "a.ply:2: 'format ebcdic 1.0': is no line of a PLY file's header"),
+                ("a.xyz", "1\n", "a.xyz:1: the file ends after the number of particles: it was cut short"),
                 ("a.xyz", "1\nProperties=pos:R:x\n1 2 3\n", "a.xyz:2: Properties = 'pos:R:x': must be name:type:count for"),
                 ("a.csv.gz", gzip.compress(b"x,y,z\n" * 99)[:-9], "a.csv.gz: after 0 unpacked bytes: Compressed file ended")):
             with self.subTest(message):

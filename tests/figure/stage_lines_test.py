@@ -57,10 +57,9 @@ class Lines(unittest.TestCase):
             with unittest.mock.patch.object(_overlay, "BAND_ROWS", 1000):
                 whole = shares_of(staged, self.context)
             np.testing.assert_array_equal((shares.shapes, shares.outlines), (whole.shapes, whole.outlines))
-            edges = staged.scene.sphere_arrays[1]
             self.assertEqual(shares.shapes.max(), 1.0)  # inside balls
-            seen = rays(staged.layout.camera, *np.multiply(SIZE, PER_SIDE))
-            apart, apart_of_wider = (np.abs(shares.shapes - share(are_hit(*seen, *cell_edges(CELL), edges.radius[0] * factor))).max()
+            seen, width = rays(staged.layout.camera, *np.multiply(SIZE, PER_SIDE)), staged.scene.sphere_arrays[1].radius[0]
+            apart, apart_of_wider = (np.abs(shares.shapes - share(are_hit(*seen, *cell_edges(CELL), width * factor))).max()
                                      for factor in (1, 1.2))
             self.assertTrue(apart < 2.5 / 16 < apart_of_wider)
 

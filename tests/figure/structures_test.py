@@ -13,7 +13,7 @@ from pt.figures._elements import SYMBOLS
 from pt.figures._errors import DataError
 from structures_cases import CASES, MMCIF, REFUSED, gro, lammps
 
-DAMAGES = 6
+DAMAGES = 20
 LETTERS = b" \n0123456789.-+eEdX\"'\t\xff\0"
 
 DATA = pathlib.Path(__file__).resolve().parents[2] / "tests/data/structures"

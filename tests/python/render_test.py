@@ -136,8 +136,9 @@ class Readback(unittest.TestCase):
                 ("dtype float16", plain.astype(np.float16))):
             with self.subTest(words=words), self.assertRaisesRegex(ValueError, words):
                 self.context.readback(out=out)
-        with self.assertRaisesRegex(ValueError, "rectangle"):
-            self.context.readback(rectangle=(-1, 0, 1, 2))
+        for rectangle in (0, 0, -1, 2), (-1, 0, 1, 2):
+            with self.assertRaisesRegex(ValueError, "rectangle"):
+                self.context.readback(rectangle=rectangle)
         np.testing.assert_array_equal(self.context.readback(), self.image)
 
 
