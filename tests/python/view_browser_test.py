@@ -12,7 +12,6 @@ import time
 import unittest
 
 import numpy as np
-import pt
 from pt.view import View
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -132,7 +131,6 @@ class Browser(unittest.TestCase):
             self.browser.until(f"{CAMERA} !== {json.dumps(shown)}")
         self.browser.value(click("back"))
         self.browser.until(f"{CAMERA} === {json.dumps(before)}")
-        self.assertEqual(pt.load(self.downloaded("scene", "coursework.json")).settings.width, 256)
 
     def test_a_course_has_a_verdict_and_paths_of_tapped_pixels(self):
         folder = self.folder / "course"
@@ -153,12 +151,9 @@ class Browser(unittest.TestCase):
         self.browser.value(choose("max_path_length", 4))
         self.browser.value(click("trace"))
         self.browser.until(f"{VERTICES}.length === 5 && {CIRCLES}.length")
-        second = self.browser.value(f"{VERTICES}[1].textContent")
-        self.assertRegex(second, r"^2position \S+ \S+ \S+throughput .*numbers [\d.]+ [\d.]+$")
+        self.assertRegex(self.browser.value(f"{VERTICES}[1].textContent"), r"^2position \S+ \S+ \S+throughput .*numbers [\d.]+ [\d.]+$")
         x, y = self.browser.value(f"(c => [+c.getAttribute('cx'), +c.getAttribute('cy')])({CIRCLES}[0])")
         self.assertEqual((int(x), int(y)), (120, 70))
-        self.browser.value(choose("sample", 7))
-        self.browser.until(f"{VERTICES}[1].textContent !== {json.dumps(second)}")
         self.browser.value(click("untrace"))
         self.assertEqual(self.browser.value(f"{CIRCLES}.length"), 0)
 
