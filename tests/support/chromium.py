@@ -1,6 +1,7 @@
 """Controls a page in headless Chromium (chromedevtools.github.io/devtools-protocol)."""
 
 import asyncio
+import base64
 import json
 import pathlib
 import shutil
@@ -81,6 +82,9 @@ class Chromium:
 
     def mouse(self, kind, x, y, **more):
         self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, **more)
+
+    def screenshot(self, path):
+        pathlib.Path(path).write_bytes(base64.b64decode(self.call("Page.captureScreenshot", format="png")["data"]))
 
     def close(self):
         self._run(self._socket.close())
