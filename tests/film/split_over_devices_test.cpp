@@ -6,6 +6,7 @@
 #include "tests/support/shared_context.h"
 
 #include <gtest/gtest.h>
+#include <pt/film.h>
 
 #include <vector>
 
@@ -23,8 +24,9 @@ protected:
                               shared_by(device_count, like_gpus));
     }
 
-    static void set_up(pt_context *on, uint32_t first_row = 0, uint32_t row_count = 0) {
+    static void set_up(pt_context *on, uint32_t first_row = 0, uint32_t row_count = 0, uint32_t first_sample = 0) {
         pt_render render = render_of(shared_width, shared_height, 3);
+        render.first_sample = first_sample;
         render.first_row = first_row;
         render.row_count = row_count;
         set_coursework(on, render);
@@ -49,12 +51,18 @@ TEST_F(SplitOverDevices, SeveralDevicesGiveTheBitsOfOne) {
     const Image expected = image_of(alone.get());
     const Image expected_error = image_of(alone.get(), shared_height, PT_QUANTITY_STANDARD_ERROR);
     const pt_error_estimate expected_errors[] = {error_of(alone.get()), error_of_one_gpu(77)};
+    set_up(alone.get(), 0, 0, 50);
+    accumulate_on(alone.get(), 27);
+    const std::vector<char> rest = film_of(alone.get());
     for (const auto &[submit_milliseconds, like_gpus] : {std::pair{1U, false}, {50U, false}, {5U, true}}) {
         const Context shared = context_on(3, submit_milliseconds, like_gpus);
         set_up(shared.get());
         accumulate_on(shared.get(), 50);
         EXPECT_NE(image_of(shared.get()), expected) << "27 missing samples must show";
-        accumulate_on(shared.get(), 27);
+        if (submit_milliseconds == 50)
+            EXPECT_EQ(pt_add_film(shared.get(), rest.data(), rest.size()), PT_OK) << pt_last_error(shared.get());
+        else
+            accumulate_on(shared.get(), 27);
         EXPECT_EQ(image_of(shared.get()), expected);
         EXPECT_EQ(image_of(shared.get(), shared_height, PT_QUANTITY_STANDARD_ERROR), expected_error);
         const pt_stats stats = stats_of(shared.get());

@@ -75,11 +75,14 @@ double lamp_of(double pixels) {
 // A visible lamp that covers a 20th of a pixel gets .8 hits of 16 samples, and 13 hits of 256. Its light on other
 // surfaces is negligible.
 TEST_F(UnknownError, WhileSamplesHardlyMeetALampInView) {
-    for (const bool in_view : {true, false}) {
+    for (const bool in_view : {false, true}) {
         set_up(lamp_of(1.0 / 20), PT_ESTIMATOR_MIS, 2, {in_view ? 0.0 : 6.0, -10.0, 0.0}, 20.0);
         EXPECT_EQ(after(16) & unmet, in_view ? unmet : 0U);
         EXPECT_EQ(after(240) & unmet, 0U);
     }
+    const pt_camera away = camera_at({0, 0, 0}, {0, 1, 0}, 1.0, {0, 0, 1});
+    ASSERT_EQ(pt_set_camera(context(), &away), PT_OK) << pt_last_error(context());
+    EXPECT_EQ(after(16) & unmet, 0U) << "no longer in view";
 }
 
 TEST_F(UnknownError, NoTargetIsReachedBeforeALampInViewIsMet) {

@@ -202,4 +202,19 @@ TEST(FeatureMotion, IsWhetherAHugeBallMovesWhileTheShutterIsOpen) {
     expect_feature(pt::gpu::ID_MOTION, 1, {{"a little", {moving}}});
 }
 
+// The lamp's light is a 25th of its radiance at the ball.
+TEST(BranchCount, IsOneWhereALampOutshinesTheSkyTwice) {
+    for (const float sky : {0.0F, 1.9F, 2.1F}) {
+        pt::Scene scene;
+        scene.materials = {{glm::vec3(0.5F), glm::vec3(0), glm::vec3(0), 0},
+                           {glm::vec3(0), glm::vec3(0), glm::vec3(100), 0},
+                           {glm::vec3(0), glm::vec3(0), glm::vec3(sky), 0}};
+        scene.spheres = {ball_at(nowhere, 1), lamp_at({0, 50, 0}, 10), ball_at(nowhere, 1000, nowhere, 2)};
+        const pt::Camera camera{eye + glm::dvec3(0, 0, 9), {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, 0, 1};
+        const pt::RenderSettings settings{4, 4, 3, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4};
+        const pt::View view = pt::view_of(pt::PreparedScene(scene), camera, settings);
+        EXPECT_EQ(pt::branch_count(view.features), sky == 1.9F ? 1U : 2U) << sky;
+    }
+}
+
 } // namespace

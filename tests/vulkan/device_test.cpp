@@ -98,6 +98,9 @@ TEST_F(VulkanTest, TransfersReachTheirRangeOnly) {
         const std::size_t first = (15U << 20) / 4 + 1;
         const std::size_t count = (17U << 20) / 4;
         EXPECT_TRUE(std::ranges::equal(download(buffer, first, count), std::span(values).subspan(first, count)));
+        EXPECT_EQ(device.allocated_bytes(), buffer.size() + (in_place ? 0U : 16U << 20));
+        buffer = Buffer(device, BufferUse::Storage, 4, "test");
+        EXPECT_EQ(device.allocated_bytes(), 4U);
     }
 }
 
