@@ -134,6 +134,11 @@ TEST(KernelFolder, WhatWasUsedLongestAgoMakesPlace) {
     EXPECT_TRUE(exists(path(101)));
     resize_file(path(101), KernelFolder::most_bytes + 1);
     EXPECT_EQ(folder.load(key(101), {}), 0) << "no kernel of the program is as large";
+
+    temporary.write("secret", "text");
+    folder.store("../secret", bytes("x"));
+    EXPECT_EQ(temporary.read("secret"), "text");
+    EXPECT_EQ(folder.load("../secret", {}), 0) << "a key leads nowhere else";
 }
 
 TEST(Printable, ShowsWhatSteersTerminals) {

@@ -25,10 +25,10 @@ class Denoise(unittest.TestCase):
         cls.context = cls.enterClassContext(pt.Context())
 
     def rendered(self, samples, estimator=pt.Estimator.BEST, **more):
-        return self.context.render(SCENE, CAMERA, settings(estimator=estimator), samples, denoise=True, **more)
+        return self.context.render(SCENE, CAMERA, settings(estimator=estimator, coverage=True), samples, denoise=True, **more)
 
     def half(self, seed, samples, estimator=pt.Estimator.BEST):
-        return self.context.render(SCENE, CAMERA, settings(seed=seed, estimator=estimator), samples)
+        return self.context.render(SCENE, CAMERA, settings(seed=seed, estimator=estimator, coverage=True), samples)
 
     def test_an_image_is_made_of_two(self):
         noisy = pt.Estimator.UNIFORM
@@ -36,6 +36,7 @@ class Denoise(unittest.TestCase):
         first, second = self.half(0, 2, noisy), self.half(2**63, 2, noisy)
         np.testing.assert_array_equal(image.raw, (first.radiance + second.radiance) / 2)
         np.testing.assert_array_equal(image.standard_error, np.abs(first.radiance - second.radiance) / 2)
+        np.testing.assert_array_equal(image.coverage, (first.coverage + second.coverage) / 2)
         self.assertEqual((image.stats.sample_count, image.sample_count.max(), image.sample_count.shape),
                          (4, 4, (HEIGHT, WIDTH)))
         radiance, error = pt.denoise(first, second, self.context.readback(pt.Quantity.ALBEDO),
