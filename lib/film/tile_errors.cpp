@@ -11,6 +11,19 @@ namespace {
 
 constexpr std::size_t channel_count = 3;
 
+// The expected squared errors of TileErrors in gpu_layout.h, by pixel, summed over channels. Pixels outside the image
+// have 0.
+struct PixelErrors {
+    using Numbers = std::array<double, tile_size * tile_size>;
+
+    Numbers square{};
+    Numbers relative_square{};
+    Numbers met_once{};
+    Numbers as_lamps{};
+    Numbers met_again{};
+    Numbers unseen{};
+};
+
 // Each pixel with its left and right neighbor, sorted. Missing neighbors come first.
 using SortedRow = std::array<gpu::Sorted, tile_size>;
 
@@ -57,8 +70,6 @@ void add_value(const TileValues &tile, std::size_t channel, std::size_t pixel, c
     errors.unseen[pixel] += gpu::unseen_square(mean, largest_beside, tile.sample_count, relative_offset);
 }
 
-} // namespace
-
 PixelErrors pixel_errors(const TileValues &tile) {
     PixelErrors errors;
     for (std::size_t channel = 0; channel < channel_count; ++channel) {
@@ -75,6 +86,8 @@ PixelErrors pixel_errors(const TileValues &tile) {
     }
     return errors;
 }
+
+} // namespace
 
 TileErrors tile_errors(const TileValues &tile) {
     const PixelErrors pixels = pixel_errors(tile);

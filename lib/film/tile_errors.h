@@ -31,21 +31,6 @@ struct TileValues {
     std::array<std::array<PixelValue, 3>, tile_size * tile_size> pixels{};
 };
 
-// The expected squared errors of TileErrors in gpu_layout.h, by pixel, summed over channels. Pixels outside the image
-// have 0.
-struct PixelErrors {
-    using Numbers = std::array<double, tile_size * tile_size>;
-
-    Numbers square{};
-    Numbers relative_square{};
-    Numbers met_once{};
-    Numbers as_lamps{};
-    Numbers met_again{};
-    Numbers unseen{};
-};
-
-PixelErrors pixel_errors(const TileValues &tile);
-
 struct ErrorSquares {
     double sum = 0.0;              // infinite if unknown
     double of_pixels = 0.0;        // sum of squares of pixels' sums

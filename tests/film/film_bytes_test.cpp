@@ -143,10 +143,8 @@ TEST(FilmBytes, HeadersHaveOneForm) {
         {"pt film 1\ntile 0 0 1 1\nsamples 0 1\nseed 1\n\n", "film: its header is not in the prescribed form"},
     };
     for (const auto &[header, message] : cases) {
-        const pt::Error error = error_of([&] {
-            const Bytes bytes = sealed(with_planes(header), pixel_bytes);
-            const pt::FilmReader film(bytes);
-        });
+        const Bytes bytes = sealed(with_planes(header), pixel_bytes);
+        const pt::Error error = error_of([&] { const pt::FilmReader film(bytes); });
         EXPECT_EQ(error.code(), PT_ERROR_INCOMPATIBLE);
         EXPECT_EQ(error.what(), message) << header;
     }
