@@ -62,7 +62,7 @@ public:
         // fits skewed noise.
         if (picture.kind == hidden || picture.kind == estimators || chance(0.4))
             given.spheres.push_back({{0, 0, 0}, uniform(15, 30), {0, 0, 0}, perhaps_hidden(picture.kind, lamp), 0});
-        given.planes[0].material = perhaps_hidden(picture.kind, 1);
+        given.planes[0].material = perhaps_hidden(picture.kind, picture.kind == parallel ? lamp : 1);
         if (picture.kind == hidden)
             given.planes.push_back(
                 {{uniform(-0.2, 0.2), uniform(-0.2, 0.2), 1}, -uniform(0, 4), material_count + 1, 0});
