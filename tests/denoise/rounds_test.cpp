@@ -45,6 +45,8 @@ TEST(DenoiseRounds, AreHalfAsLargeAgain) {
     EXPECT_EQ(ends(10, 1e-9, 0.0), Ends{10});
     EXPECT_EQ(ends(100, 0.0, 0.0), Ends{100});
     EXPECT_EQ(ends(100, 0.0, 1e-9, PT_LIMIT_REACHED), Ends{16});
+    EXPECT_EQ(ends(100, 1e9, 0.0, PT_TARGET_REACHED), Ends{16});
+    EXPECT_EQ(ends(16, 1e9, 0.0, PT_TARGET_REACHED), Ends{16}) << "by the last round";
 }
 
 // The first round takes at least 5/6 of the time.
