@@ -20,7 +20,7 @@ function(pt_add_archive target name objects)
   add_library(${target} STATIC ${object})
   set_target_properties(${target} PROPERTIES OUTPUT_NAME ${name} LINKER_LANGUAGE CXX)
   target_link_libraries(${target} INTERFACE ${pt_cxx_runtime})
-  # Linux's linker makes that object. Nothing tests a sanitized one.
+  # Only Linux's linker makes the object, and no test uses a sanitized one.
   if(PT_SANITIZE OR NOT CMAKE_SYSTEM_NAME STREQUAL "Linux")
     set_target_properties(${target} PROPERTIES EXCLUDE_FROM_ALL ON)
   endif()

@@ -1,9 +1,9 @@
 # With PT_UNITY, the sources of a target are compiled as one file or two: most of the time of a compiler, and of clang-tidy,
-# goes into headers. For what is built once; who changes sources builds without. Names in anonymous namespaces must differ
+# goes into headers. It suits a single build, not changes of sources. Names in anonymous namespaces must differ
 # within a file.
 option(PT_UNITY "Compile the sources of the library, the program and the tests as few files" OFF)
 if(PT_UNITY)
-  set(CMAKE_DISABLE_PRECOMPILE_HEADERS ON) # few files would read what takes longer to write than to parse
+  set(CMAKE_DISABLE_PRECOMPILE_HEADERS ON) # too few files read a header to repay its precompiling
 endif()
 # GCC looks for garbage in hundreds of megabytes of headers each time that a file has added a little: a tenth of its time.
 if(PT_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT CMAKE_CXX_CLANG_TIDY)

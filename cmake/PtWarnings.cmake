@@ -24,8 +24,8 @@ if(NOT CMAKE_BUILD_TYPE AND NOT pt_is_multi_config AND NOT CMAKE_CXX_FLAGS MATCH
 endif()
 if(PT_SANITIZE)
   target_compile_options(pt_warnings INTERFACE -fsanitize=${PT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
-  # In the code of tests and of targets with PT_FEW_CHECKS, without three checks of every access, which take the compiler a
-  # fifth of its time and make the objects more than twice as large.
+  # Tests and targets with PT_FEW_CHECKS do without three checks of every access. These take a fifth of the compiler's time
+  # and make the objects more than twice as large.
   foreach(check null alignment vptr)
     target_compile_options(
       pt_warnings
@@ -35,7 +35,7 @@ if(PT_SANITIZE)
   target_link_options(pt_warnings INTERFACE -fsanitize=${PT_SANITIZE})
   find_program(PT_GOLD ld.gold)
   if(PT_GOLD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    target_link_options(pt_warnings INTERFACE -fuse-ld=gold) # in less than half the time
+    target_link_options(pt_warnings INTERFACE -fuse-ld=gold) # links in half the time
   endif()
 endif()
 if(PT_COVERAGE)

@@ -42,7 +42,7 @@ install_modules() {
 
 build() { # preset, whether with tests [cmake --build arguments]
     preset=$1
-    # Few files compile in less time than many.
+    # Few files parse few headers.
     cmake --preset "$preset" -DPT_BUILD_TESTS="$2" -DPT_UNITY=ON || return
     shift 2
     cmake --build --preset "$preset" "$@"

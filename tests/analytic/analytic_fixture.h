@@ -7,7 +7,7 @@
 
 namespace analytic {
 
-// PT_TEST_TREE puts all spheres into trees, and divides sample counts by 8.
+// PT_TEST_TREE puts all spheres into trees.
 inline bool always_tree() {
     return std::getenv("PT_TEST_TREE") != nullptr;
 }

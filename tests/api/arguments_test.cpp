@@ -15,12 +15,13 @@ namespace {
 
 // `get` writes at most *count rows, and sets *count to their number. Returns all rows.
 template <typename Row, typename Get>
-std::vector<Row> rows_of_any_count(const Get &get) {
+std::vector<Row> checked_rows(const Get &get) {
     uint32_t available = 0;
     EXPECT_EQ(get(nullptr, &available), PT_OK);
+    EXPECT_GT(available, 0U);
     std::vector<Row> all(available);
     EXPECT_EQ(get(all.data(), &available), PT_OK);
-    for (const uint32_t room : {0U, available - 1, available, available + 1}) {
+    for (const uint32_t room : {0U, available / 2, available, available + 1}) {
         std::vector<Row> rows(available + 2);
         std::memset(static_cast<void *>(rows.data()), 0x55, rows.size() * sizeof(Row));
         const Row untouched = rows.back();
@@ -35,8 +36,7 @@ std::vector<Row> rows_of_any_count(const Get &get) {
 }
 
 TEST(Api, DevicesSayWhyTheyDoNotFit) {
-    const auto devices = rows_of_any_count<pt_device_info>(&pt_get_devices);
-    EXPECT_FALSE(devices.empty());
+    const auto devices = checked_rows<pt_device_info>(&pt_get_devices);
     for (const pt_device_info &device : devices) {
         EXPECT_LE(device.kind, uint32_t{PT_DEVICE_CPU});
         EXPECT_NE(device.name[0], '\0');
@@ -45,7 +45,7 @@ TEST(Api, DevicesSayWhyTheyDoNotFit) {
 }
 
 TEST_F(ApiTest, AccuracyNeedsNoScene) {
-    const auto rows = rows_of_any_count<pt_function_accuracy>(
+    const auto rows = checked_rows<pt_function_accuracy>(
         [&](pt_function_accuracy *to, uint32_t *count) { return pt_get_accuracy(context(), to, count); });
     ASSERT_EQ(rows.size(), pt::elementary_functions().size());
     for (std::size_t i = 0; i < rows.size(); ++i) {

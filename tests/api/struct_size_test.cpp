@@ -58,7 +58,7 @@ Newer<T> newer_than(const T &value) {
 }
 
 template <typename T, typename Call>
-void expect_no_absurd_size(T value, const std::string &name, const Call &call) {
+void expect_absurd_sizes_refused(T value, const std::string &name, const Call &call) {
     for (const auto &[size, rule] : {std::pair{0U, ", which holds this field"}, {65537U, " (<= 65536)"}}) {
         value.struct_size = size;
         const Outcome refused{PT_ERROR_INVALID_ARGUMENT, name + ".struct_size = " + std::to_string(size) +
@@ -82,7 +82,7 @@ void expect_sizes_heeded(const T &value, const std::string &name, const Call &ca
                                                         std::to_string(sizeof(T)) + " bytes of the struct"};
         EXPECT_EQ(call(newer.known), outcome);
     }
-    expect_no_absurd_size(value, name, call);
+    expect_absurd_sizes_refused(value, name, call);
 }
 
 class StructSizeTest : public ApiTest {
@@ -190,7 +190,7 @@ void expect_written_sizes_heeded(const T &whole, const std::string &name, const 
     newer.known.struct_size = sizeof whole;
     EXPECT_EQ(std::memcmp(&newer.known, &whole, sizeof whole), 0);
     EXPECT_EQ(std::ranges::count(newer.tail, 0x55), std::ssize(newer.tail)) << "written behind the struct";
-    expect_no_absurd_size(whole, name, [&](T wrong) { return call(&wrong); });
+    expect_absurd_sizes_refused(whole, name, [&](T wrong) { return call(&wrong); });
 }
 
 TEST_F(StructSizeTest, StatsAndErrorEstimate) {

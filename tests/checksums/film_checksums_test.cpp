@@ -55,7 +55,6 @@ protected:
         ASSERT_EQ(pt_accumulate(on, &info), PT_OK) << pt_last_error(on);
     }
 
-    // First all tiles take equal samples, then some tiles take more.
     static std::string checksums(pt_context *on, const cli::SceneFile &file, std::uint32_t sampler) {
         pt_render render = render_of(width, height, std::min(file.render.max_path_length, 4U));
         render.sampler = sampler;

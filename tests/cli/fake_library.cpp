@@ -1,6 +1,6 @@
 // Replaces libpt, needs no device and fails on demand. Environment variables:
 // FAKE_PT_FAIL=function:result  fails the function
-// FAKE_PT_FAIL=create:-99       has no memory, as if the program had none
+// FAKE_PT_FAIL=create:-99       throws std::bad_alloc
 // FAKE_PT_FAIL=name:1           the device's name is invalid UTF-8; name:2: it has an escape
 // FAKE_PT_MESSAGE               message of failures
 // FAKE_PT_SAMPLE_MS             least duration of a sample

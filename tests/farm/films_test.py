@@ -136,8 +136,7 @@ class Farm(unittest.TestCase):
             return farm.render(client, JOB, samples, **arguments)
 
     def test_of_four_one_fails_one_is_killed_and_one_stopped(self):
-        """The two have parts and another one has failed when they are harmed. The stopped worker continues when other workers
-        have its parts."""
+        """Two are harmed when they have parts and another has failed. The stopped one continues when others have its parts."""
         path = self.path
         held = []
 

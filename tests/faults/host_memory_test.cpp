@@ -14,7 +14,7 @@ using namespace faults;
 void fail_every_allocation(const Setting &setting, bool goes_on) {
     std::size_t failures = 0;
     const auto arm = [&](const std::string &step, std::size_t number) {
-        fail_allocation(place_in(step, number), goes_on);
+        fail_allocation(call_number(step, number), goes_on);
     };
     const auto disarm = [&](const std::string &step, pt_result result, const std::string &message) {
         const bool failed = allocation_failed();

@@ -67,7 +67,7 @@ pt_result start_and_poll(pt_context *context, const pt_accumulate_info *info) {
     return result;
 }
 
-// The film then depends on the target alone, not on calls before or on failures.
+// No target needs 2^20 samples, so the film does not depend on earlier calls or failures.
 pt_result accumulate_to_target(pt_context *context) {
     const pt_accumulate_info info = accumulate_info(1U << 20, 0.1, &go_on);
     return pt_accumulate(context, &info);
@@ -98,7 +98,7 @@ void keep_a_long_message() {
 
 } // namespace
 
-std::size_t place_in(const std::string &step, std::size_t number) {
+std::size_t call_number(const std::string &step, std::size_t number) {
     return step == uneven_step ? number + number * number * number / 16 : number;
 }
 

@@ -33,7 +33,7 @@ Expected undisturbed();
 
 // Returns the number of the allocation or Vulkan call that fails. Adaptive sampling has thousands, so most are left
 // out.
-std::size_t place_in(const std::string &step, std::size_t number);
+std::size_t call_number(const std::string &step, std::size_t number);
 
 struct Injection {
     std::function<void(const std::string &step, std::size_t number)> arm;

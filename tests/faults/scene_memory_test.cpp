@@ -58,17 +58,17 @@ Taken taken_by(pt_context *context, const pt_scene &scene) {
     return taken;
 }
 
-Context created() {
+Context default_context() {
     pt_context *context = nullptr;
     EXPECT_EQ(pt_create(nullptr, &context), PT_OK) << pt_last_error(nullptr);
     return Context(context);
 }
 
-// A sphere takes at most 48 bytes of device words, plus indices. Motion and color take 20 more.
+// A sphere takes at most 48 bytes of words, 4 of indices and 12 meanwhile. Motion and color take 20 more.
 TEST(SceneMemoryTest, Is64BytesASphere) {
     ManySpheres spheres;
     const auto expect_at_most = [&](double more) {
-        const Context context = created();
+        const Context context = default_context();
         const Taken anew = taken_by(context.get(), spheres.scene());
         EXPECT_LE(anew.meanwhile, 64 + more);
         EXPECT_LE(anew.after, 48 + 4 + more);
@@ -87,7 +87,7 @@ TEST(SceneMemoryTest, Is64BytesASphere) {
 // Leak checks miss memory that is freed with the context.
 TEST(SceneMemoryTest, IsConstantOverManyScenes) {
     constexpr int warm = 50;
-    const Context context = created();
+    const Context context = default_context();
     CourseworkScene coursework;
     long allocations = 0;
     std::uint64_t device_bytes = 0;

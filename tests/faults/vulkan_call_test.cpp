@@ -64,7 +64,7 @@ void fail_every_call(const Setting &setting) {
     std::size_t armed = 0;
     const auto arm = [&](const std::string &step, std::size_t number) {
         armed = number;
-        fail_call(place_in(step, number), error);
+        fail_call(call_number(step, number), error);
     };
     const auto disarm = [&](const std::string &step, pt_result result, const std::string &message) {
         const CallFault fault = call_fault();

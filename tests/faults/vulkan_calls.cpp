@@ -59,7 +59,7 @@ std::uint64_t largest_heap = UINT64_MAX;
 std::set<const void *> lost; // devices and queues
 std::set<VkFence> hanging;
 std::map<VkQueue, VkDevice> devices_of_queues;
-std::multimap<const void *, Call> live; // the function that made the object
+std::multimap<const void *, Call> live; // objects by handle, with their makers
 PFN_vkDeviceWaitIdle wait_idle = nullptr;
 PFN_vkGetDeviceProcAddr get_device_function = nullptr;
 

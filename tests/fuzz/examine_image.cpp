@@ -89,7 +89,6 @@ std::optional<pt::Features> features(const Input &input) {
     }
 }
 
-// The kernel's features usually stay the same.
 void change_one_number(Input &input, std::mt19937_64 &random) {
     std::vector<double *> lengths;
     std::vector<float *> colors;

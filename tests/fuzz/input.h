@@ -24,7 +24,7 @@ struct Input {
 
 Input decoded_input(Numbers numbers);
 
-// Each flavour defines this function. A failed check ends the process.
+// Each examine_*.cpp defines this. A failed check ends the process.
 void examine(const Input &input, std::span<const std::uint8_t> bytes);
 
 } // namespace fuzz

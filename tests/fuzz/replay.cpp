@@ -49,7 +49,7 @@ void run(const Bytes &input) {
     LLVMFuzzerTestOneInput(input.data(), input.size());
 }
 
-// Half of the new bytes are copies, which texts more often accept.
+// Half of the new bytes are copies, because texts refuse most others.
 Bytes changed(Bytes input, std::mt19937 &random) {
     for (std::uint32_t changes = 1 + random() % 4; changes > 0 && !input.empty(); --changes) {
         const auto place = input.begin() + static_cast<std::ptrdiff_t>(random() % input.size());

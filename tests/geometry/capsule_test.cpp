@@ -43,7 +43,7 @@ Nearest nearest_of(const std::vector<Given::Capsule> &capsules, const glm::dvec3
     return nearest;
 }
 
-// The direction advances the depth by 1.
+// One `direction` is 1 of depth.
 struct CameraRay {
     glm::dvec3 origin, direction;
 

@@ -39,8 +39,8 @@ public:
         return scene;
     }
 
-    // The camera is in a sphere, in front of all or far away. A distance of 10^5 times the scene's size rounds depths
-    // to few values. A wide view from there includes the horizon.
+    // The camera is in a sphere, in front of all or far away. From 10^5 times the scene's size, depths have few
+    // values in float32, and a wide view has the horizon.
     pt::Camera camera(const pt::Scene &scene) {
         pt::Camera camera{{0.1, 0.2, 6}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, 0.0, 1.0};
         const double choice = uniform(0.0, 1.0);

@@ -9,7 +9,7 @@
 
 namespace {
 
-pt::View view_of_blocks(const pt::Scene &scene) {
+pt::View view_of_scene(const pt::Scene &scene) {
     const pt::Camera camera{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, 0.25, 0.75};
     return pt::view_of(pt::PreparedScene(scene), camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4});
 }
@@ -27,16 +27,16 @@ pt::Scene row_of_balls(std::uint32_t count, std::uint32_t materials) {
 
 // 341 surfaces of three words leave one word of the uniform buffer free.
 TEST(SceneBlocks, ShareMaterialsInScenesTooLargeForTheUniformBuffer) {
-    const pt::View small = view_of_blocks(row_of_balls(341, 1));
+    const pt::View small = view_of_scene(row_of_balls(341, 1));
     EXPECT_TRUE(small.features.scene_in_uniform());
     EXPECT_EQ(small.features.table_materials, 0U);
     EXPECT_EQ(small.words.size(), 3U * 341) << "neither motion nor gloss";
 
-    const pt::View large = view_of_blocks(row_of_balls(342, 1));
+    const pt::View large = view_of_scene(row_of_balls(342, 1));
     EXPECT_FALSE(large.features.scene_in_uniform());
     EXPECT_EQ(large.features.table_materials, 2U);
     EXPECT_EQ(large.words.size(), 342U + 1 + 86 + 2) << "geometry, the lamp's emission, indices, table";
-    EXPECT_EQ(view_of_blocks(row_of_balls(342, 100)).words.size(), 342U + 1 + 86 + 101);
+    EXPECT_EQ(view_of_scene(row_of_balls(342, 100)).words.size(), 342U + 1 + 86 + 101);
 }
 
 TEST(SceneBlocks, HoldTheLargestScenes) {
@@ -69,7 +69,7 @@ TEST(SceneBlocks, HaveAFilmWhoseUnitFollowsTheBrightestLampInUse) {
 TEST(SceneBlocks, HaveNoNegativeZerosOfLamps) {
     pt::Scene scene = row_of_balls(2, 1);
     scene.materials[1].emission.r = -0.0F;
-    const pt::View view = view_of_blocks(scene);
+    const pt::View view = view_of_scene(scene);
     const glm::vec4 emission = view.words[pt::SceneBlocks(view.features).emission];
     EXPECT_EQ(emission.g, 60.0F);
     EXPECT_EQ(emission.r, 0.0F);

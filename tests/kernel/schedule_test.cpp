@@ -49,7 +49,7 @@ struct Step {
     double paths() const { return pt::paths_of(tile_count, samples); }
 };
 
-// Judges the slices of the work. Tests of whole films notice lost tiles and samples.
+// Tests of whole films notice lost tiles and samples.
 std::vector<Step> simulate(std::uint32_t tile_count, std::uint64_t samples, const pt::ScheduleLimits &limits,
                            const Device &device) {
     std::vector<std::uint32_t> all(tile_count);

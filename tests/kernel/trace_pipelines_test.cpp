@@ -87,7 +87,7 @@ TEST_F(TracePipelinesTest, WhoPollsKeepsTheKernelThatThereIsAndWhoPreparesGetsTh
     EXPECT_EQ(trace(third_ball, 0.0), any);
 }
 
-// The least recently used kernel is dropped and built again. The new one may have the same address.
+// The least recently used kernel is dropped. It is not compared, because a new one may have its address.
 TEST_F(TracePipelinesTest, AHandfulIsKept) {
     use(false);
     const auto of_lamps = [&](std::uint32_t lamp_count) {

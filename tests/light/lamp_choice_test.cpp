@@ -53,7 +53,7 @@ public:
         return {stated.begin(), stated.end()};
     }
 
-    // Returns radiance * (r / d)^2 * min(1, (n . v + r) / d) of each lamp.
+    // Returns the documented weight of each lamp.
     std::vector<double> weights(const glm::vec3 &position, const glm::vec3 &normal, float time) const {
         std::vector<double> weights;
         const pt::SceneBlocks blocks(view_.features);

@@ -26,7 +26,7 @@ struct SpotRoom {
     std::uint32_t estimator = PT_ESTIMATOR_MIS;
 };
 
-pt::View scene_of_room(const SpotRoom &room) {
+pt::View view_of_room(const SpotRoom &room) {
     pt::Scene scene;
     const float specular = room.ball_specular;
     scene.materials = {{glm::vec3(0), glm::vec3(0), glm::vec3(1), 0},
@@ -39,10 +39,6 @@ pt::View scene_of_room(const SpotRoom &room) {
     const pt::Camera camera{{0, 2, 8}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, 0.0, 0.0};
     return pt::view_of(pt::PreparedScene(scene), camera,
                        {4, 4, room.max_path_length, 0, 0, room.estimator, PT_SAMPLER_SOBOL, 0, 4});
-}
-
-std::uint32_t spots_of(const SpotRoom &room) {
-    return scene_of_room(room).features[pt::gpu::ID_SPOT_COUNT];
 }
 
 TEST(LightSpots, AreGlowsNearPlanesAndImagesInWhatIsPolished) {
@@ -69,11 +65,11 @@ TEST(LightSpots, AreGlowsNearPlanesAndImagesInWhatIsPolished) {
                  {"lamps are sampled", {.estimator = PT_ESTIMATOR_LIGHT}, 1},
                  {"lamps are not sampled", {.estimator = PT_ESTIMATOR_BSDF}, 0}};
     for (const auto &[why, room, spots] : cases)
-        EXPECT_EQ(spots_of(room), spots) << why;
+        EXPECT_EQ(view_of_room(room).features[pt::gpu::ID_SPOT_COUNT], spots) << why;
 }
 
 TEST(LightSpots, AreTheLastWordsOfTheScene) {
-    const std::vector<glm::vec4> words = scene_of_room({.ball_specular = 0.5F}).words;
+    const std::vector<glm::vec4> words = view_of_room({.ball_specular = 0.5F}).words;
     const auto word = [](std::uint32_t lamp, std::uint32_t surface, float reflectance, float glossiness) {
         const auto bits = [](std::uint32_t number) {
             return std::bit_cast<float>(pt::gpu::MATERIAL_INDEX_BITS + number);
@@ -112,7 +108,7 @@ TEST(LampTreeShape, HasASlotForEachLampAndMostAreTaken) {
 }
 
 TEST(LampTreeFeature, IsForManyLampsThatAreSampled) {
-    const auto levels = [](const SpotRoom &room) { return scene_of_room(room).features[pt::gpu::ID_LAMP_TREE_LEVELS]; };
+    const auto levels = [](const SpotRoom &room) { return view_of_room(room).features[pt::gpu::ID_LAMP_TREE_LEVELS]; };
     EXPECT_EQ(levels({.lamps = pt::least_tree_lamps - 1}), 0U);
     EXPECT_EQ(levels({.lamps = pt::least_tree_lamps}), 1U);
     EXPECT_EQ(levels({.lamps = pt::least_tree_lamps, .estimator = PT_ESTIMATOR_LIGHT}), 1U);

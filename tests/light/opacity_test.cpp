@@ -102,7 +102,7 @@ TEST_F(Opacity, OfSurfacesThatDifferIsIndependent) {
     for (const auto &[what, first, second] : pairs)
         EXPECT_NEAR(share_passed({first, second}), 0.25, 0.008) << what;
     EXPECT_NEAR(share_passed({bond, bond}), 0.5, 0.008) << "duplicates";
-    // The extent of all spheres decides the steps of their places.
+    // A larger scene stores places in larger steps.
     for (double extent = 4.0; extent < 100.0; extent *= 2.0)
         for (const glm::dvec3 &place : {glm::dvec3(0, 0, -1), {0, 0.5, 1}, {0.5, 0, 1}})
             EXPECT_NEAR(share_passed({ball, ball_at(place, 1.0, 0.5F), ball_at({extent, 0, 0}, 1.0, 0.0F)}), 0.25,
@@ -144,7 +144,7 @@ TEST_F(Opacity, OfColorsAndMotionsIsIndependent) {
 
 // Every 16 consecutive points of a pixel's 256 fall into 16 equal intervals. The number of blocked rays then has a
 // standard deviation of at most 2, and every pixel must be within five standard deviations. Negative control: random
-// numbers, whose standard deviation is 8. Only the first branch of a path casts the shadow ray.
+// numbers, whose standard deviation is 8. Only one branch of a path casts a shadow ray, so these are 256 too.
 TEST_F(Opacity, OfOneSurfaceIsEvenlySpreadOverRaysOfCamerasAndShadows) {
     const Given seen = under_sky({ball_at({0, 0, 1}, 1.0, 0.4F)});
     Given shadow;
@@ -173,8 +173,8 @@ TEST_F(Opacity, OfOneSurfaceIsEvenlySpreadOverRaysOfCamerasAndShadows) {
     }
 }
 
-// Every 16 samples have another lattice, so the mean square over 6,144 pixels falls as with independent samples.
-// With one lattice for all pixels it falls faster. The stated error may be a tenth too small.
+// Every 16 samples have another lattice, so the mean square error falls as with independent samples. The stated error
+// may be a tenth too small.
 TEST_F(Opacity, OfTwoSurfacesHasManyLattices) {
     Given given = under_sky({ball_at({0, 0, 2}, 1.0, 0.4F), ball_at({0, 0, -2}, 1.0, 0.4F)});
     std::ranges::fill(given.materials[2].emission, 1.0F);

@@ -33,8 +33,8 @@ int common_digits(std::uint32_t a, std::uint32_t b) {
     return std::countl_zero(a ^ b);
 }
 
-// sum d_k b^-(k + 1) for the digits d_k of the index in base b. Floors are right in long double, whose
-// mantissa has 64 bits, unless a value is within 2^-20 of an integer.
+// The inverse is 2^32 sum d_k b^-(k + 1), rounded down, for the index's digits d_k in base b. In long double the sum's
+// error is below 2^-20.
 TEST(RadicalInverse, IsTheSumOfMirroredDigits) {
     const auto is_prime = [](std::uint64_t number) {
         std::uint64_t divisor = 2;

@@ -78,7 +78,7 @@ Blocks take(std::uint32_t sampler, const Request &request, std::uint32_t branche
 // The bound allows one false alarm in a million over at most 72 chi-squares.
 const double bound = statistics::normal_quantile(1e-6 / 72);
 
-// Counts the leading `bits` of numbers that belong together. Uniform and independent numbers fill all cells alike.
+// Returns the chi-square of cells of leading `bits`. Uniform and independent numbers fill all cells alike.
 double deviate(const std::vector<Numbers> &together, std::uint32_t bits) {
     std::vector<double> observed(std::size_t{1} << (bits * together.size()));
     for (std::size_t i = 0; i < together[0].size(); ++i) {
@@ -171,7 +171,7 @@ TEST(SamplerRandom, BranchesAreSamplesOfTheirOwn) {
     EXPECT_NE(numbers(0x40000000U, 3, 4), numbers(3, 0, 1));
 }
 
-// Branch b of B has in sample i the numbers of sample B i + b, in blocks behind the shared ones.
+// Behind the shared blocks, branch b of B takes the numbers of sample B i + b for its sample i.
 TEST(SamplerHalton, IsTheRadicalInverseInEveryPixel) {
     for (const std::uint32_t branches : {1U, 4U})
         for (std::uint32_t block = branches > 1 ? shared_blocks : 0; block < table_blocks; ++block)

@@ -201,7 +201,7 @@ TEST(SmallLamps, AddWhatSamplesShouldHaveMet) {
     EXPECT_DOUBLE_EQ(with(32, 8).square.sum, 3.0 * 16.0 * 0.25 * 0.75 / 8.0);
 }
 
-// The limit is .01: .01^2 / (.01^2 + .01) < .01.
+// Light 10 is negligible: .01^2 / (.01^2 + .01) < .01.
 TEST(SmallLamps, CountAgainstATargetIfTheirLackShows) {
     for (const bool is_random : {false, true})
         for (const bool is_spread : {false, true})

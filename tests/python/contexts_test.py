@@ -182,7 +182,7 @@ class Interrupts(unittest.TestCase):
         self.assertIs(self.context.set_scene(MANY_SPHERES, lambda _: True), pt.Result.CANCELLED)
         self.assertEqual(self.context.film(), film)
         told = []
-        self.assertIs(self.context.accumulate(ENDLESS, progress=lambda _: told.append(_) or len(told) > 3),
+        self.assertIs(self.context.accumulate(ENDLESS, progress=lambda fraction: told.append(fraction) or len(told) > 3),
                       pt.Result.CANCELLED)
         self.assertEqual(len(told), 4)
         for value in 1, "stop":

@@ -166,7 +166,7 @@ STANDARD_ERRORS = 5.4  # exceeded once in ten million
 
 
 class Minnaert(unittest.TestCase):
-    """The radiance of shaders/MATERIALS.md's material, and all estimators against uniform directions, which need no density."""
+    """The material of shaders/MATERIALS.md has its radiance. Estimators agree with uniform directions, which need no density."""
 
     def setUp(self):
         self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()), "shaders")
