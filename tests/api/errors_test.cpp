@@ -146,6 +146,7 @@ TEST(Log, PassesOnLineByLine) {
     EXPECT_EQ(lines, (std::vector<std::string>{"2one", "2", "2three", "3ends"}));
     const pt::Log throws{[](void *, int32_t, const char *) { throw 7; }, nullptr};
     EXPECT_NO_THROW(throws.write(PT_LOG_ERROR, "dropped"));
+    pt::Log().write(PT_LOG_ERROR, "nobody reads this");
 }
 
 } // namespace

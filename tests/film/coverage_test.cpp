@@ -83,9 +83,9 @@ TEST_F(Coverage, IsThatOfTheSamplesThemselves) {
         double extent = 0.0; // of a parallel view
     };
     for (const auto &[spheres, motion, sampler, aperture, extent] :
-         {Case{5, 0.0, PT_SAMPLER_SOBOL}, Case{5, 1.5, PT_SAMPLER_HALTON_CP}, Case{5, 0.0, PT_SAMPLER_RANDOM, 1.0},
-          Case{5, 1.5, PT_SAMPLER_HALTON, 1.0}, Case{90, 0.0, PT_SAMPLER_HALTON}, Case{90, 1.5, PT_SAMPLER_RANDOM},
-          Case{90, 1.5, PT_SAMPLER_SOBOL, 1.0}, Case{90, 0.0, PT_SAMPLER_SOBOL, 0.0, 6.0}}) {
+         {Case{5, 0.0, PT_SAMPLER_SOBOL}, Case{5, 1.5, PT_SAMPLER_HALTON_CP, 1.0},
+          Case{90, 0.0, PT_SAMPLER_RANDOM, 1.0}, Case{90, 1.5, PT_SAMPLER_HALTON},
+          Case{90, 0.0, PT_SAMPLER_SOBOL, 0.0, 6.0}}) {
         SCOPED_TRACE(std::to_string(spheres) + " spheres, sampler " + std::to_string(sampler));
         pt_render render = picture(sampler);
         render.first_sample = 3;

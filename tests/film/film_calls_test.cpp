@@ -7,11 +7,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -94,12 +96,17 @@ TEST(FilmCalls, TellWhichSamplesThereAre) {
                    "tile = 7: must be below 2");
 }
 
+struct Stream {
+    std::size_t most;
+    film_maker::Bytes bytes;
+};
+
 std::int32_t append(void *user, const void *data, std::uint64_t size) {
-    auto &bytes = *static_cast<film_maker::Bytes *>(user);
+    auto &stream = *static_cast<Stream *>(user);
     const auto *first = static_cast<const std::byte *>(data);
     EXPECT_LE(size, 1U << 20);
-    bytes.insert(bytes.end(), first, first + size);
-    return 0;
+    stream.bytes.insert(stream.bytes.end(), first, first + size);
+    return stream.bytes.size() > stream.most ? 1 : 0;
 }
 
 TEST(FilmCalls, HandOnTheBytes) {
@@ -109,9 +116,13 @@ TEST(FilmCalls, HandOnTheBytes) {
         for (std::uint32_t x = 0; x < large.width; ++x)
             samples[{y, x}] = {0, 9};
     const auto bytes = film_maker::film_of(film_maker::identity(large.width, large.height), {large}, samples);
-    film_maker::Bytes streamed;
-    EXPECT_EQ(pt_stream_film(opened(bytes).get(), append, &streamed), PT_OK);
-    EXPECT_TRUE(streamed == bytes);
+    for (const std::size_t most : {bytes.size() / 2, bytes.size()}) {
+        Stream stream{most, {}};
+        const bool is_ended = most < bytes.size();
+        EXPECT_EQ(pt_stream_film(opened(bytes).get(), append, &stream), is_ended ? PT_CANCELLED : PT_OK);
+        EXPECT_EQ(stream.bytes.size() < bytes.size(), is_ended);
+        EXPECT_TRUE(std::ranges::equal(stream.bytes, std::span(bytes).first(stream.bytes.size())));
+    }
 }
 
 TEST(FilmCalls, ReadImages) {

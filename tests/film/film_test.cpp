@@ -123,6 +123,31 @@ TEST(Film, HasNoSamplesBySquaresThatATileCuts) {
     }
 }
 
+TEST(Film, WhatDoesNotBelongChangesNothing) {
+    Samples samples;
+    give(samples, {0, 0, image_width, image_height}, {0, 1, 2});
+    pt::Film film(film_by_sample(samples));
+    const Bytes before = bytes_of(film);
+    const auto refusal = [&](const pt::FilmIdentity &identity, const Samples &other) {
+        const pt::Error error =
+            error_of([&] { film.add(pt::Film(film_maker::film_of(identity, film_maker::tiles_of(other), other))); });
+        EXPECT_EQ(error.code(), PT_ERROR_INCOMPATIBLE);
+        EXPECT_TRUE(bytes_of(film) == before) << error.what();
+        return std::string(error.what());
+    };
+    const pt::FilmIdentity same = film_maker::identity(image_width, image_height);
+    pt::FilmIdentity seed = same;
+    seed[5].value = "7";
+    Samples others;
+    give(others, {0, 0, image_width, image_height}, {3, 4});
+    EXPECT_EQ(refusal(film_maker::identity(image_width, image_height, true), others),
+              "film.coverage = 1: must be absent");
+    EXPECT_EQ(refusal(seed, others), "film.seed = 7: must be 18446744073709551615, as in the film that it is added to");
+    give(others, {8, 8, 4, 4}, {1});
+    EXPECT_EQ(refusal(same, others),
+              "film.samples = [1, 2), [3, 5) in the 4x4 pixels from (8, 8): [1, 2) are already in the film");
+}
+
 TEST(Film, WhatNoPictureHasIsRefused) {
     const pt::FilmIdentity good = film_maker::identity(image_width, image_height);
     Samples samples;

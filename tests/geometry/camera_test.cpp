@@ -73,6 +73,8 @@ TEST(Camera, BrokenRulesAreNamed) {
          {[](pt_camera &c) { c.vertical_fov = std::numbers::pi; },
           "camera.vertical_fov = 3.141592653589793: must lie in [1e-8, pi)"},
          {[](pt_camera &c) { c.vertical_fov = 9e-9; }, "camera.vertical_fov = 9e-09: must lie in [1e-8, pi)"},
+         {[](pt_camera &c) { c.vertical_fov = camera_nan; }, "camera.vertical_fov = nan: must be finite"},
+         {[](pt_camera &c) { c.shutter_open = camera_nan; }, "camera.shutter_open = nan: must be finite"},
          {[](pt_camera &c) { c.shutter_open = -0.25; }, "camera.shutter_open = -0.25: must be >= 0"},
          {[](pt_camera &c) { c.shutter_close = 1.5; }, "camera.shutter_close = 1.5: must be <= 1"},
          {[](pt_camera &c) { c.shutter_open = 0.5; }, "camera.shutter_close = 0: must be >= shutter_open (0.5)"},

@@ -63,6 +63,7 @@ TEST(SphereArrays, BrokenRulesOfValuesAreNamed) {
               p.radius[3] = 1e-20F;
               p.motion[2] = 1e-300;
               p.material[2] = 3;
+              p.color[2] = not_a_number;
               p.color[9] = -0.01F;
           },
           "sphere_arrays[0].center[1] = (-1e-19, 5, 6): must be 0 or of a magnitude in [1e-18, 1e18]\n"
@@ -72,7 +73,9 @@ TEST(SphereArrays, BrokenRulesOfValuesAreNamed) {
           "sphere_arrays[0].radius[3] = 1e-20: must lie in [1e-18, 1e18]\n"
           "sphere_arrays[0].motion[0] = (0, 0, 1e-300): must be 0 or of a magnitude in [1e-18, 1e18]\n"
           "sphere_arrays[0].material[2] = 3: must be < material_count (3)\n"
-          "sphere_arrays[0].color[3] = (-0.01, 1, 0.5): must lie in [0, 1]"},
+          "sphere_arrays[0].color[0] = (1, 1, nan): must be finite\n"
+          "... and 1 more"},
+         {[](Particles &p) { p.color[9] = -0.01F; }, "sphere_arrays[0].color[3] = (-0.01, 1, 0.5): must lie in [0, 1]"},
          {[](Particles &p) {
               p.materials.clear();
               p.spoil = [](pt_sphere_array &a) { a.material = {}; };
