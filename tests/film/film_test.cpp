@@ -95,19 +95,20 @@ TEST(Film, SumsHaveTheBytesOfTheirSamplesInAnyOrder) {
     }
 }
 
-// Tiles above each other with equal columns are one cut.
-TEST(Film, TakesATileOverTilesThatItHas) {
+// The tile beside ends halfway down.
+TEST(Film, CutsNoTileWhereAnotherEnds) {
     const pt::FilmIdentity identity = film_maker::identity(image_width, image_height);
-    const pt::Rectangle whole{0, 0, image_width, image_height};
-    Samples left;
-    give(left, {0, 0, 8, image_height}, {0});
-    Samples all;
-    give(all, whole, {1});
-    pt::Film film(film_maker::film_of(identity, {{0, 0, 8, 8}, {0, 8, 8, image_height - 8}}, left));
-    film.add(pt::Film(film_maker::film_of(identity, {whole}, all)));
-    for (auto &[pixel, indices] : left)
-        all[pixel].merge(indices);
-    EXPECT_TRUE(bytes_of(film) == film_by_sample(all));
+    const pt::Rectangle high{0, 0, 8, image_height};
+    const pt::Rectangle beside{8, 0, 8, 8};
+    Samples present;
+    give(present, high, {0});
+    give(present, beside, {0});
+    Samples added;
+    give(added, high, {1});
+    pt::Film film(film_maker::film_of(identity, {high, beside}, present));
+    film.add(pt::Film(film_maker::film_of(identity, {high}, added)));
+    give(present, high, {1});
+    EXPECT_TRUE(bytes_of(film) == film_by_sample(present));
 }
 
 TEST(Film, KnowsTheSamplesForLampsOfAllThatWereAdded) {
