@@ -44,7 +44,7 @@ protected:
                             render_of(shape.width, shape.height, 1), 256);
     }
 
-    // Pixels whose corners see one plane must be exact. For others 0.12 is at least five standard errors.
+    // Pixels whose corners see one plane must be exact. Others have the bound 0.12, at least five standard errors.
     std::uint32_t wrong_pixels(const std::vector<float> &image, double shift) const {
         const Shape &shape = GetParam();
         std::uint32_t wrong = 0;
