@@ -202,7 +202,7 @@ TEST(FeatureMotion, IsWhetherAHugeBallMovesWhileTheShutterIsOpen) {
     expect_feature(pt::gpu::ID_MOTION, 1, {{"a little", {moving}}});
 }
 
-// The lamp's light at the ball is 100 / 25, twice that of a sky of 2.
+// The lamp's light at the ball is 100 / 25. A sky of 2 has half of it.
 TEST(BranchCount, IsOneWhereALampOutshinesTheSkyTwice) {
     for (const float sky : {0.0F, 1.9F, 2.1F}) {
         pt::Scene scene;
