@@ -2,6 +2,7 @@
 
 #include "cli/base/interrupt.h"
 #include "cli/picture/denoise.h"
+#include "cli/picture/picture_output.h"
 #include "cli/render/render_checks.h"
 #include "lib/scene_file/animation.h"
 
