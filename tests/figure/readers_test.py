@@ -57,6 +57,16 @@ class Stored(unittest.TestCase):
                                            expected.column("charge"), 0, charge)
                 np.testing.assert_array_equal(found.column("z"), found.positions[:, 2])
 
+    def test_fractions_of_a_cell(self):
+        """Fractions have 7 digits. Edges are at most 8 long, and each coordinate is the sum of three products."""
+        for name in "melt", "tilted":
+            scaled, plain = load(DATA / f"{name}.dump"), load(DATA / f"{name}_plain.dump")
+            np.testing.assert_allclose(scaled.positions, plain.positions, 0, 3 * 8 * 0.5e-7)
+            np.testing.assert_array_equal(scaled.types, plain.types)
+        # The file was made from a cell at 0 with xy 1.5, xz -0.7 and yz 0.9.
+        np.testing.assert_allclose(scaled.cell.origin, 0, 0, 1e-14)
+        np.testing.assert_allclose(scaled.cell.vectors[np.tril_indices(3, -1)], [1.5, -0.7, 0.9], 0, 1e-14)
+
 
 class Cells(InAFolder):
     def test_cells_are_those_of_the_text(self):
